@@ -1,0 +1,16 @@
+//! What every Tyndall crate stands on: parameters declared once, counter-based random numbers, grids and spectra.
+//!
+//! - [`params`]: the [`params!`] and [`choices!`] macros; one declaration feeds struct, default, range check, scene file,
+//!   command line, sliders, tooltips and documentation.
+//! - [`rng`]: Philox4x32-10, a random number as a pure function of (seed, step, cell).
+//! - [`grid`]: dense 2-D and 3-D arrays with a documented index order and linear interpolation.
+//! - [`spectrum`]: the eight wavelengths of all light transport and their map to linear Rec.709.
+//! - [`units`]: conversions at the edges of the program; inside it everything is metres, seconds, radians, kelvin.
+
+pub mod grid;
+pub mod params;
+pub mod rng;
+pub mod spectrum;
+pub mod units;
+
+pub use params::{ParamError, ParamInfo, ParamKind, ParamSet, Scale};

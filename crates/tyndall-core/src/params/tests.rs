@@ -1,0 +1,81 @@
+//! Laws of the parameter declarations.
+
+use crate::{ParamError, ParamSet as _, choices, params};
+
+choices! {
+    /// Example of a choice.
+    enum Shape {
+        /// Round.
+        Round = "round",
+        /// Square.
+        Square = "square",
+    }
+}
+
+params! {
+    /// Example of a set.
+    struct Thing {
+        /// Elevation above
+        /// the horizon.
+        elevation_deg: f64 = 30.0, ["deg", -90.0..=90.0, Linear], "Example, eq. 1";
+        /// Number of cells.
+        cells: u32 = 64, ["1", 8..=1024, Log], "Example, eq. 2";
+        /// Switch.
+        on: bool = true, "Example";
+        /// Outline.
+        shape: Shape = Shape::Square, "Example";
+    }
+}
+
+#[test]
+fn every_default_is_an_allowed_value() {
+    let thing = Thing::default();
+    for (index, info) in thing.info().iter().enumerate() {
+        assert_eq!(info.check(info.default), Ok(thing.get(index)), "{}", info.name);
+    }
+}
+
+#[test]
+fn text_survives_the_way_through_format_and_parse() {
+    let mut thing = Thing { elevation_deg: -0.125, cells: 1000, on: false, shape: Shape::Round };
+    assert_eq!(thing.shape.name(), "round");
+    let texts: Vec<_> = thing.info().iter().enumerate().map(|(i, info)| info.format(thing.get(i))).collect();
+    assert_eq!(texts, ["-0.125", "1000", "false", "round"]);
+    let written = thing.clone();
+    thing = Thing::default();
+    for (info, text) in Thing::default().info().iter().zip(&texts) {
+        thing.set_text(info.name, text).unwrap();
+    }
+    assert_eq!(thing, written);
+}
+
+#[test]
+fn nan_infinity_and_values_out_of_range_are_refused() {
+    let mut thing = Thing::default();
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 90.001, -91.0] {
+        assert!(matches!(thing.set("elevation_deg", value), Err(ParamError::OutOfRange { .. })), "{value}");
+    }
+    assert_eq!(thing, Thing::default(), "a refused value changes nothing");
+}
+
+#[test]
+fn messages_name_value_unit_and_allowed_range() {
+    let mut thing = Thing::default();
+    let message = |result: Result<(), ParamError>| result.unwrap_err().to_string();
+    assert_eq!(message(thing.set("elevation_deg", 99.0)), "`elevation_deg` = 99 deg is outside -90 to 90 deg");
+    assert_eq!(message(thing.set("cells", 8.5)), "`cells` = 8.5 must be a whole number");
+    assert_eq!(message(thing.set_text("shape", "oval")), r#"`shape` = "oval" is not one of "round", "square""#);
+    assert_eq!(
+        message(thing.set_text("elevation_deg", "up")),
+        r#"`elevation_deg` = "up" is not a number from -90 to 90 deg"#
+    );
+    assert_eq!(message(thing.set("elevatoin_deg", 1.0)), "unknown parameter `elevatoin_deg`");
+}
+
+#[test]
+fn labels_drop_the_unit_and_docs_lose_their_line_breaks() {
+    let thing = Thing::default();
+    let labels: Vec<_> = thing.info().iter().map(super::ParamInfo::label).collect();
+    assert_eq!(labels, ["Elevation", "Cells", "On", "Shape"]);
+    assert_eq!(thing.info()[0].doc, "Elevation above the horizon.");
+}

@@ -1,0 +1,3 @@
+//! Light scattering in planetary atmospheres.
+
+pub mod params;

@@ -1,0 +1,69 @@
+//! What users choose of an atmosphere.
+
+use tyndall_core::{choices, params};
+
+choices! {
+    /// Where the scattering coefficients of air come from.
+    pub enum AirModel {
+        /// Fit of Bodhaine et al. 1999, with the depolarisation of air (King factor).
+        Bodhaine1999 = "bodhaine1999",
+        /// Equation (1) of the paper with one refractive index and no King factor: 4.8 % too little at 550 nm.
+        Paper = "paper",
+    }
+}
+
+choices! {
+    /// Phase function of the aerosol.
+    pub enum AerosolPhase {
+        /// Cornette and Shanks 1992, the aerosol phase function of Nishita et al. 1993.
+        CornetteShanks = "cornette-shanks",
+        /// Henyey and Greenstein 1941.
+        HenyeyGreenstein = "henyey-greenstein",
+    }
+}
+
+params! {
+    /// The atmosphere: air, aerosol and ozone over a spherical planet.
+    pub struct AtmosphereParams {
+        /// Radius of the planet at sea level.
+        planet_radius_km: f64 = 6360.0, ["km", 100.0..=100000.0, Log], "Nishita et al. 1993";
+        /// Altitude above which there is nothing.
+        top_altitude_km: f64 = 100.0, ["km", 10.0..=1000.0, Log], "Bruneton 2017";
+        /// Density of air relative to the standard atmosphere's.
+        air_density: f64 = 1.0, ["1", 0.0..=10.0, Linear], "paper eq. (1), rho";
+        /// Height over which the density of air falls by a factor e.
+        air_scale_height_km: f64 = 8.0, ["km", 0.5..=50.0, Log], "paper eq. (2), H_0";
+        /// Where the scattering coefficients of air come from.
+        air_model: AirModel = AirModel::Bodhaine1999, "Bodhaine et al. 1999, eq. 30; paper eq. (1)";
+        /// Vertical optical depth of the aerosol at 550 nm, all extinction together.
+        aerosol_optical_depth: f64 = 0.1, ["1", 0.0..=5.0, Linear], "Angstrom 1929";
+        /// How fast the aerosol's optical depth falls with wavelength; 0 is grey, 1.3 fine dust, 4 molecules.
+        aerosol_angstrom: f64 = 1.3, ["1", -0.5..=4.0, Linear], "Angstrom 1929";
+        /// Share of the aerosol's extinction that is scattering; the rest is absorbed.
+        aerosol_albedo: f64 = 0.92, ["1", 0.0..=1.0, Linear], "Dubovik et al. 2002, table 1";
+        /// Mean cosine of the angle by which the aerosol scatters; 0 is even, 1 straight ahead.
+        aerosol_asymmetry: f64 = 0.76, ["1", -0.95..=0.95, Linear], "Cornette and Shanks 1992";
+        /// Height over which the aerosol's density falls by a factor e.
+        aerosol_scale_height_km: f64 = 1.2, ["km", 0.1..=50.0, Log], "Nishita et al. 1993";
+        /// Phase function of the aerosol.
+        aerosol_phase: AerosolPhase = AerosolPhase::CornetteShanks, "Nishita et al. 1993";
+        /// Amount of ozone.
+        ozone_du: f64 = 300.0, ["DU", 0.0..=1000.0, Linear], "Serdyuchenko et al. 2014";
+        /// Altitude at which ozone is densest.
+        ozone_altitude_km: f64 = 25.0, ["km", 0.0..=100.0, Linear], "Bruneton 2017";
+        /// Distance above and below that altitude at which the ozone ends.
+        ozone_half_width_km: f64 = 15.0, ["km", 0.5..=50.0, Linear], "Bruneton 2017";
+    }
+}
+
+params! {
+    /// The ground of the planet.
+    pub struct GroundParams {
+        /// Share of red light that the ground reflects.
+        albedo_red: f64 = 0.16, ["1", 0.0..=1.0, Linear], "Lambert 1760";
+        /// Share of green light that the ground reflects.
+        albedo_green: f64 = 0.15, ["1", 0.0..=1.0, Linear], "Lambert 1760";
+        /// Share of blue light that the ground reflects.
+        albedo_blue: f64 = 0.12, ["1", 0.0..=1.0, Linear], "Lambert 1760";
+    }
+}
