@@ -1,0 +1,72 @@
+//! The table of all WGSL files: one line a file, sorted by name.
+
+/// A row of the table: the name below `shaders/` and the text.
+macro_rules! wgsl {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../", $name)))),*]
+    };
+}
+
+/// All WGSL files, sorted: name relative to the folder `shaders/`, with `/` on every system, and text.
+pub const FILES: &[(&str, &str)] = wgsl![
+    // One line a file, sorted; the tests of this crate name the line to add when one is forgotten.
+];
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    use crate::{FILES, compose, entries};
+
+    /// All WGSL files below the folder, by their path with `/` on every system.
+    fn files_below(root: &Path, folder: &Path, out: &mut BTreeSet<String>) {
+        for entry in std::fs::read_dir(folder).expect("the folder of this crate can be read") {
+            let path = entry.expect("the folder of this crate can be read").path();
+            if path.is_dir() {
+                files_below(root, &path, out);
+            } else if path.extension().is_some_and(|extension| extension == "wgsl") {
+                let name = path.strip_prefix(root).expect("it lies below the root");
+                out.insert(name.to_string_lossy().replace('\\', "/"));
+            }
+        }
+    }
+
+    #[test]
+    fn every_wgsl_file_of_the_folder_has_a_line_in_the_table() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let mut found = BTreeSet::new();
+        files_below(root, root, &mut found);
+        let listed: BTreeSet<String> = FILES.iter().map(|(name, _)| (*name).to_owned()).collect();
+        let forgotten: Vec<String> = found
+            .difference(&listed)
+            .map(|name| {
+                let before = listed.range(..name.clone()).next_back();
+                let place =
+                    before.map_or("as the first line".to_owned(), |before| format!("after the line \"{before}\","));
+                format!("add to FILES in shaders/src/files.rs, {place}:\n    \"{name}\",")
+            })
+            .collect();
+        assert!(forgotten.is_empty(), "{}", forgotten.join("\n"));
+    }
+
+    #[test]
+    fn the_table_is_sorted_and_names_nothing_twice() {
+        for pair in FILES.windows(2) {
+            assert!(
+                pair[0].0 < pair[1].0,
+                "in shaders/src/files.rs the line {:?} belongs before {:?}",
+                pair[1].0,
+                pair[0].0
+            );
+        }
+    }
+
+    #[test]
+    fn every_entry_file_composes() {
+        for name in entries() {
+            let composed = compose(name).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(composed.files.last().map(AsRef::as_ref), Some(name), "the entry file stands last");
+        }
+    }
+}
