@@ -1,0 +1,13 @@
+//! What users choose besides the atmosphere and the ground, one file per group.
+
+mod camera;
+mod film;
+mod image;
+mod sky;
+mod sun;
+
+pub use camera::CameraParams;
+pub use film::{ExposureMode, FilmParams, ToneMap};
+pub use image::ImageParams;
+pub use sky::{SkyMode, SkyParams};
+pub use sun::{SunParams, SunPosition};

@@ -1,0 +1,31 @@
+//! How the sky is computed.
+
+use tyndall_core::{choices, params};
+
+choices! {
+    /// Where the colour of the sky is evaluated.
+    pub enum SkyMode {
+        /// At every pixel of the picture.
+        PerPixel = "per-pixel",
+        /// At the vertices of a dome, and interpolated in between, as in the paper.
+        VertexDome = "vertex-dome",
+    }
+}
+
+params! {
+    /// The sky's method and its resolution. The defaults suit every scene; see each line for when to change it.
+    pub struct SkyParams {
+        /// Where the colour is evaluated: at every pixel, or as in the paper at the vertices of a dome.
+        mode: SkyMode = SkyMode::PerPixel, "paper section 2; Hillaire 2020";
+        /// Rows of the sky table, over the elevation of view. Raise it when a low sun shows rings at the horizon.
+        table_elevations: u32 = 192, ["1", 16..=512, Log], "Hillaire 2020";
+        /// Columns of the sky table, over the angle from the sun's azimuth. Raise it for very hazy air.
+        table_azimuths: u32 = 96, ["1", 8..=256, Log], "Hillaire 2020";
+        /// Steps of the integral along each ray of view.
+        march_steps: u32 = 32, ["1", 8..=64, Log], "paper eq. (2)";
+        /// Rings of the dome from horizon to zenith, denser at the horizon. Used in the vertex-dome mode.
+        dome_rings: u32 = 48, ["1", 4..=256, Log], "paper section 2";
+        /// Vertices in each ring of the dome. Used in the vertex-dome mode.
+        dome_segments: u32 = 96, ["1", 8..=512, Log], "paper section 2";
+    }
+}

@@ -1,0 +1,168 @@
+//! The scene: all groups of parameters, reached by path.
+
+use tyndall_core::{ParamInfo, ParamSet};
+
+use crate::{
+    AtmosphereParams, CameraParams, FilmParams, GroundParams, ImageParams, SceneError, SceneHash, SkyParams,
+    SunDirection, SunParams, nearest::nearest, sun,
+};
+
+/// Everything that a picture depends on, and its title.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scene {
+    /// Title for people; one line.
+    pub title: String,
+    /// What the scene shows.
+    pub description: String,
+    /// Where the camera stands and looks.
+    pub camera: CameraParams,
+    /// Where the sun stands and what its disc looks like.
+    pub sun: SunParams,
+    /// Air, aerosol and ozone.
+    pub atmosphere: AtmosphereParams,
+    /// The ground.
+    pub ground: GroundParams,
+    /// How the sky is computed.
+    pub sky: SkyParams,
+    /// Exposure and display.
+    pub film: FilmParams,
+    /// Size of the picture.
+    pub image: ImageParams,
+}
+
+impl Scene {
+    /// The groups with their names in scene files, in the order in which they are shown.
+    #[must_use]
+    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 7] {
+        [
+            ("camera", &self.camera),
+            ("sun", &self.sun),
+            ("atmosphere", &self.atmosphere),
+            ("ground", &self.ground),
+            ("sky", &self.sky),
+            ("film", &self.film),
+            ("image", &self.image),
+        ]
+    }
+
+    /// [`Scene::groups`], to change them.
+    #[must_use]
+    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 7] {
+        [
+            ("camera", &mut self.camera),
+            ("sun", &mut self.sun),
+            ("atmosphere", &mut self.atmosphere),
+            ("ground", &mut self.ground),
+            ("sky", &mut self.sky),
+            ("film", &mut self.film),
+            ("image", &mut self.image),
+        ]
+    }
+
+    /// Value of the parameter at a path like `sun.elevation_deg`; choices count from 0, toggles are 0 and 1.
+    ///
+    /// # Errors
+    /// When there is no such parameter.
+    pub fn get(&self, path: &str) -> Result<f64, SceneError> {
+        let (group, index) = self.find(path)?;
+        Ok(self.groups()[group].1.get(index))
+    }
+
+    /// Sets the parameter at a path.
+    ///
+    /// # Errors
+    /// When there is no such parameter or it does not take the value.
+    pub fn set(&mut self, path: &str, value: f64) -> Result<(), SceneError> {
+        self.set_checked(path, |info| info.check(value))
+    }
+
+    /// Sets the parameter at a path from text as users write it: a number, `true`, `false`, or a choice's name.
+    ///
+    /// # Errors
+    /// When there is no such parameter or the text is not an allowed value.
+    pub fn set_text(&mut self, path: &str, text: &str) -> Result<(), SceneError> {
+        self.set_checked(path, |info| info.parse(text))
+    }
+
+    /// Checks every value and what must hold between them: the date exists, the ozone lies inside the atmosphere.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn check(&self) -> Result<(), SceneError> {
+        for (group, set) in self.groups() {
+            check_group(group, set)?;
+        }
+        let AtmosphereParams { ozone_du, ozone_altitude_km, top_altitude_km, .. } = self.atmosphere;
+        if ozone_du > 0.0 && ozone_altitude_km > top_altitude_km {
+            return Err(SceneError::OzoneAboveTop { ozone_altitude_km, top_altitude_km });
+        }
+        self.sun_direction().map(|_direction| ())
+    }
+
+    /// Direction to the sun, from its angles or from date, time and place.
+    ///
+    /// # Errors
+    /// When a value of the sun is not allowed or the date does not exist.
+    pub fn sun_direction(&self) -> Result<SunDirection, SceneError> {
+        check_group("sun", &self.sun)?;
+        sun::direction(&self.sun)
+    }
+
+    /// Hash of all parameters: what a picture's header stores to tell whether the picture is still that of its scene.
+    #[must_use]
+    pub fn hash(&self) -> SceneHash {
+        SceneHash::of(self)
+    }
+
+    fn set_checked(
+        &mut self,
+        path: &str,
+        value: impl Fn(&ParamInfo) -> Result<f64, tyndall_core::ParamError>,
+    ) -> Result<(), SceneError> {
+        let (group, index) = self.find(path)?;
+        let (group, set) = &mut self.groups_mut()[group];
+        let value = value(&set.info()[index]).map_err(|source| SceneError::Value { group, source })?;
+        set.set_unchecked(index, value);
+        Ok(())
+    }
+
+    /// Position of the group in [`Scene::groups`] and of the parameter in the group.
+    fn find(&self, path: &str) -> Result<(usize, usize), SceneError> {
+        let groups = self.groups();
+        let Some((group_name, name)) = path.split_once('.') else {
+            return Err(self.unknown_group(path));
+        };
+        let Some(group) = groups.iter().position(|(known, _)| *known == group_name) else {
+            return Err(self.unknown_group(group_name));
+        };
+        let index = groups[group].1.position(name).map_err(|_unknown| self.unknown_parameter(group_name, name))?;
+        Ok((group, index))
+    }
+
+    /// The refusal of a group, with the nearest group or, for a parameter without its group, the parameter's path.
+    pub(crate) fn unknown_group(&self, name: &str) -> SceneError {
+        let group = nearest(name, self.groups().into_iter().map(|(group, _)| group)).map(str::to_owned);
+        SceneError::UnknownGroup { name: name.to_owned(), nearest: self.home_of(name).or(group) }
+    }
+
+    /// The refusal of a parameter, with the nearest one of the group, or its home in another group.
+    pub(crate) fn unknown_parameter(&self, group: &str, name: &str) -> SceneError {
+        let set = self.groups().into_iter().find(|(known, _)| *known == group);
+        let names = set.iter().flat_map(|(_, set)| set.info()).map(|info| info.name);
+        let near = nearest(name, names).map(|near| format!("{group}.{near}"));
+        SceneError::UnknownParameter { path: format!("{group}.{name}"), nearest: self.home_of(name).or(near) }
+    }
+
+    /// Path of the parameter with exactly this name in any group.
+    fn home_of(&self, name: &str) -> Option<String> {
+        let home = self.groups().into_iter().find(|(_, set)| set.position(name).is_ok());
+        home.map(|(group, _)| format!("{group}.{name}"))
+    }
+}
+
+fn check_group(group: &'static str, set: &dyn ParamSet) -> Result<(), SceneError> {
+    for (index, info) in set.info().iter().enumerate() {
+        info.check(set.get(index)).map_err(|source| SceneError::Value { group, source })?;
+    }
+    Ok(())
+}
