@@ -1,3 +1,35 @@
 //! Light scattering in planetary atmospheres.
+//!
+//! Two layers, both in f64 and without any GPU. The *reference* integrates equations (1) and (2) of Nishita & Dobashi as
+//! they stand, slowly: [`optical_length`] and [`single_scattering`]. The *tables* are what renderers use:
+//! [`column_table`], [`sky_view_table`] and [`irradiance_table`], filled by the quadrature of [`march`], each tested
+//! against the reference at and between its nodes. The WGSL under `shaders/sky` computes the same tables with the same
+//! function names.
+//!
+//! Geometry everywhere: altitude above sea level, `mu` = cosine of the zenith angle of the view direction, `mu_sun` =
+//! the same of the sun, `nu` = cosine between the two. Wavelengths are those of the [`atmosphere::Atmosphere`]; the
+//! product uses the eight of [`tyndall_core::spectrum`].
+//!
+//! Not done here: scattering of second and higher orders, refraction, polarisation.
 
+pub mod air;
+pub mod atmosphere;
+pub mod atmosphere_file;
+pub mod column_table;
+pub mod dome;
+mod error;
+pub mod geometry;
+pub mod irradiance_table;
+pub mod march;
+pub mod medium;
+pub mod optical_length;
+pub mod ozone;
 pub mod params;
+pub mod phase;
+pub mod quadrature;
+pub mod single_scattering;
+pub mod sky_view_table;
+pub mod sun_disc;
+
+pub use atmosphere::Atmosphere;
+pub use error::ScatteringError;

@@ -56,14 +56,28 @@ params! {
     }
 }
 
+choices! {
+    /// What lies on the ground.
+    pub enum GroundPattern {
+        /// One colour everywhere.
+        Plain = "plain",
+        /// Squares of two shades, to judge distance and movement.
+        Checker = "checker",
+    }
+}
+
 params! {
-    /// The ground of the planet.
+    /// The ground of the planet, a Lambertian reflector.
     pub struct GroundParams {
         /// Share of red light that the ground reflects.
-        albedo_red: f64 = 0.16, ["1", 0.0..=1.0, Linear], "Lambert 1760";
+        red: f64 = 0.16, ["1", 0.0..=1.0, Linear], "Lambert 1760";
         /// Share of green light that the ground reflects.
-        albedo_green: f64 = 0.15, ["1", 0.0..=1.0, Linear], "Lambert 1760";
+        green: f64 = 0.15, ["1", 0.0..=1.0, Linear], "Lambert 1760";
         /// Share of blue light that the ground reflects.
-        albedo_blue: f64 = 0.12, ["1", 0.0..=1.0, Linear], "Lambert 1760";
+        blue: f64 = 0.12, ["1", 0.0..=1.0, Linear], "Lambert 1760";
+        /// What lies on the ground; the mean reflection stays the same.
+        pattern: GroundPattern = GroundPattern::Plain, "design";
+        /// Side of a square of the checker.
+        tile_m: f64 = 50.0, ["m", 0.1..=100000.0, Log], "design";
     }
 }

@@ -1,0 +1,32 @@
+//! What callers of this crate can do wrong.
+
+/// Refusals of this crate.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ScatteringError {
+    /// The GPU tables carry eight wavelengths; this atmosphere has another number.
+    #[error("the tables need {expected} wavelengths; this atmosphere has {count}")]
+    WavelengthCount {
+        /// Wavelengths of the atmosphere.
+        count: usize,
+        /// Wavelengths of the tables.
+        expected: usize,
+    },
+    /// A line of an atmosphere file cannot be read.
+    #[error("line {line}: {message}")]
+    AtmosphereFile {
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// A row that an atmosphere file needs is absent or has the wrong number of values.
+    #[error("row `{row}` has {found} values; {expected} are needed")]
+    AtmosphereRow {
+        /// Name of the row.
+        row: &'static str,
+        /// Values found.
+        found: usize,
+        /// Values needed.
+        expected: usize,
+    },
+}

@@ -1,0 +1,130 @@
+//! Rays in a spherical shell, without the cancellation of r^2 - R^2.
+//!
+//! Positions are an altitude h above the sphere of radius R; differences of squares are written h (2R + h). The same
+//! expressions hold in f32 in `shaders/common/sphere.wgsl`.
+
+/// Altitude [m] at distance `t_m` along a ray that starts at altitude `h_m` with zenith cosine `mu`.
+#[must_use]
+pub fn altitude_along(radius_m: f64, h_m: f64, mu: f64, t_m: f64) -> f64 {
+    let q = h_m * (2.0 * radius_m + h_m) + t_m * (2.0 * (radius_m + h_m) * mu + t_m);
+    q / (radius_m + (radius_m * radius_m + q).sqrt())
+}
+
+/// Distance [m] from inside to the sphere at altitude `top_m`, for 0 <= `h_m` <= `top_m`.
+#[must_use]
+pub fn distance_to_top(radius_m: f64, top_m: f64, h_m: f64, mu: f64) -> f64 {
+    let b = (radius_m + h_m) * mu;
+    let q = ((top_m - h_m) * (2.0 * radius_m + top_m + h_m)).max(0.0);
+    let root = (b * b + q).sqrt();
+    if b > 0.0 { q / (root + b) } else { root - b }
+}
+
+/// Distance [m] to the ground, or `None` when the ray misses it.
+#[must_use]
+pub fn distance_to_ground(radius_m: f64, h_m: f64, mu: f64) -> Option<f64> {
+    let b = (radius_m + h_m) * mu;
+    let q = h_m * (2.0 * radius_m + h_m);
+    let discriminant = b * b - q;
+    (mu < 0.0 && discriminant >= 0.0).then(|| q / (discriminant.sqrt() - b))
+}
+
+/// Zenith cosine of the geometric horizon seen from altitude `h_m`.
+#[must_use]
+pub fn horizon_mu(radius_m: f64, h_m: f64) -> f64 {
+    -(h_m * (2.0 * radius_m + h_m)).sqrt() / (radius_m + h_m)
+}
+
+/// Zenith cosine, at distance `t_m` along a ray, of a direction whose zenith cosine at the start is `mu_other` and whose
+/// cosine with the ray is `nu`. `h_t_m` is the altitude there.
+#[must_use]
+pub fn mu_along(radius_m: f64, h_m: f64, mu_other: f64, nu: f64, t_m: f64, h_t_m: f64) -> f64 {
+    (((radius_m + h_m) * mu_other + t_m * nu) / (radius_m + h_t_m)).clamp(-1.0, 1.0)
+}
+
+/// The stretch [m, m] of a ray that lies in the planet's shadow, a half cylinder behind the planet along the sunlight, or
+/// `None` when the ray stays in the light.
+///
+/// Equation (1) of the paper does not mention it: the term is zero where the path to the sun meets the planet. The plane
+/// through the centre at right angles to the sunlight cuts the cylinder inside the planet, so a ray outside the planet
+/// lies in the shadow on one stretch or on none.
+#[must_use]
+pub fn shadow_interval(radius_m: f64, h_m: f64, mu: f64, mu_sun: f64, nu: f64) -> Option<(f64, f64)> {
+    let r = radius_m + h_m;
+    let along = r * mu_sun;
+    let a = 1.0 - nu * nu;
+    let b = r * mu - along * nu;
+    let c = h_m * (2.0 * radius_m + h_m) - along * along;
+    if a < 1e-12 {
+        // The ray runs along the sunlight: all in shadow or none, or, towards the sun, out of reach behind.
+        return (c < 0.0 && along < 0.0 && nu < 0.0).then_some((0.0, f64::INFINITY));
+    }
+    let discriminant = b * b - a * c;
+    if discriminant <= 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let (start, end) = ((-b - root) / a, (-b + root) / a);
+    let middle_is_behind = along + nu * 0.5 * (start.max(0.0) + end) < 0.0;
+    (end > 0.0 && middle_is_behind).then_some((start.max(0.0), end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // Not the Earth on purpose: a hard-wired radius would show.
+    const RADIUS_M: f64 = 1_000_000.0;
+    const TOP_M: f64 = 500_000.0;
+
+    #[test]
+    fn altitude_along_equals_pythagoras() {
+        for (h, mu, t) in [(0.0, 0.3, 5e4), (2e5, -0.4, 1e5), (10.0, 1.0, 3e5)] {
+            let r: f64 = RADIUS_M + h;
+            let want = (r * r + 2.0 * r * mu * t + t * t).sqrt() - RADIUS_M;
+            assert!((altitude_along(RADIUS_M, h, mu, t) - want).abs() < 1e-6, "{h} {mu} {t}");
+        }
+    }
+
+    #[test]
+    fn the_end_of_a_ray_to_the_top_lies_at_the_top() {
+        for (h, mu) in [(0.0, 1.0), (0.0, 0.0), (1e5, -0.2), (4.9e5, 0.7)] {
+            let t = distance_to_top(RADIUS_M, TOP_M, h, mu);
+            assert!((altitude_along(RADIUS_M, h, mu, t) - TOP_M).abs() < 1e-6, "{h} {mu}: {t}");
+        }
+        let horizontal = ((RADIUS_M + TOP_M).powi(2) - RADIUS_M * RADIUS_M).sqrt();
+        assert!((distance_to_top(RADIUS_M, TOP_M, 0.0, 0.0) - horizontal).abs() < 1e-6, "horizontal ray");
+    }
+
+    #[test]
+    fn rays_below_the_horizon_meet_the_ground_and_rays_above_do_not() {
+        for h in [2.0, 1e3, 1e5] {
+            let horizon = horizon_mu(RADIUS_M, h);
+            let t = distance_to_ground(RADIUS_M, h, horizon - 1e-6).expect("below the horizon");
+            assert!(altitude_along(RADIUS_M, h, horizon - 1e-6, t).abs() < 1e-6, "{h}");
+            assert!(distance_to_ground(RADIUS_M, h, horizon + 1e-6).is_none(), "{h}");
+        }
+        assert!((distance_to_ground(RADIUS_M, 2.0, -1.0).unwrap() - 2.0).abs() < 1e-9, "straight down");
+    }
+
+    #[test]
+    fn the_shadow_interval_agrees_with_a_test_of_each_point() {
+        let in_shadow = |h: f64, mu: f64, mu_sun: f64, nu: f64, t: f64| {
+            let r: f64 = RADIUS_M + h;
+            let along = r * mu_sun + t * nu;
+            along < 0.0 && r * r + 2.0 * r * mu * t + t * t - along * along < RADIUS_M * RADIUS_M
+        };
+        let mut shadowed = 0;
+        for i in 0..4000_u32 {
+            let u = |k: u32| f64::from(tyndall_core::rng::CellRng::new(3).uniform(k, u64::from(i), 0));
+            let (h, mu_sun, azimuth) = (u(0).powi(2) * 1e5, -0.5 + 0.7 * u(1), 6.3 * u(2));
+            let mu = horizon_mu(RADIUS_M, h) + (1.0 - horizon_mu(RADIUS_M, h)) * u(3);
+            let nu = mu * mu_sun + ((1.0 - mu * mu) * (1.0 - mu_sun * mu_sun)).sqrt() * azimuth.cos();
+            let t = u(4) * distance_to_top(RADIUS_M, TOP_M, h, mu);
+            let interval = shadow_interval(RADIUS_M, h, mu, mu_sun, nu);
+            let inside = interval.is_some_and(|(start, end)| start < t && t < end);
+            assert_eq!(inside, in_shadow(h, mu, mu_sun, nu, t), "{h} {mu} {mu_sun} {nu} {t} {interval:?}");
+            shadowed += u32::from(inside);
+        }
+        assert!(shadowed > 400, "only {shadowed} points in shadow: the test would not notice a missing one");
+    }
+}

@@ -1,0 +1,103 @@
+//! Phase functions, normalised so that their integral over the sphere is one [1/sr].
+//!
+//! `cos_theta` is the cosine between the directions in which light travels before and after. The paper's F(alpha) of
+//! equation (1) has mean 1 over the sphere instead; F = 4 pi p. WGSL twins: `shaders/common/phase.wgsl`.
+
+use std::f64::consts::PI;
+
+/// Rayleigh, 3/(16 pi) (1 + cos^2 theta); equation (1), F divided by 4 pi.
+#[must_use]
+pub fn phase_rayleigh(cos_theta: f64) -> f64 {
+    3.0 / (16.0 * PI) * (1.0 + cos_theta * cos_theta)
+}
+
+/// Cornette and Shanks 1992; `g` in -1..1 shapes the lobe, its mean cosine is 3g(4 + g^2) / (5(2 + g^2)).
+#[must_use]
+pub fn phase_cornette_shanks(cos_theta: f64, g: f64) -> f64 {
+    let d = 1.0 + g * g - 2.0 * g * cos_theta;
+    3.0 / (8.0 * PI) * (1.0 - g * g) / (2.0 + g * g) * (1.0 + cos_theta * cos_theta) / (d * d.sqrt())
+}
+
+/// Henyey and Greenstein 1941; `g` in -1..1 is the mean cosine.
+#[must_use]
+pub fn phase_henyey_greenstein(cos_theta: f64, g: f64) -> f64 {
+    let d = 1.0 + g * g - 2.0 * g * cos_theta;
+    (1.0 - g * g) / (4.0 * PI * d * d.sqrt())
+}
+
+/// Which phase function a medium has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Phase {
+    /// [`phase_rayleigh`].
+    Rayleigh,
+    /// [`phase_cornette_shanks`].
+    CornetteShanks {
+        /// Shape of the lobe, -1 to 1.
+        g: f64,
+    },
+    /// [`phase_henyey_greenstein`].
+    HenyeyGreenstein {
+        /// Mean cosine, -1 to 1.
+        g: f64,
+    },
+}
+
+impl Phase {
+    /// Value at the cosine of the scattering angle [1/sr].
+    #[must_use]
+    pub fn value(self, cos_theta: f64) -> f64 {
+        match self {
+            Self::Rayleigh => phase_rayleigh(cos_theta),
+            Self::CornetteShanks { g } => phase_cornette_shanks(cos_theta, g),
+            Self::HenyeyGreenstein { g } => phase_henyey_greenstein(cos_theta, g),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quadrature::integrate;
+
+    fn moment(phase: Phase, power: i32) -> f64 {
+        2.0 * PI * integrate(-1.0, 1.0, 4000, |mu| phase.value(mu) * mu.powi(power))
+    }
+
+    fn all() -> Vec<Phase> {
+        let lobes = [-0.8, -0.3, 0.0, 0.5, 0.76, 0.9];
+        let pairs = lobes.map(|g| [Phase::CornetteShanks { g }, Phase::HenyeyGreenstein { g }]);
+        [Phase::Rayleigh].into_iter().chain(pairs.into_iter().flatten()).collect()
+    }
+
+    #[test]
+    fn every_phase_function_integrates_to_one() {
+        for phase in all() {
+            assert!((moment(phase, 0) - 1.0).abs() < 1e-9, "{phase:?}: {}", moment(phase, 0));
+        }
+    }
+
+    #[test]
+    fn henyey_greenstein_has_mean_cosine_g_and_rayleigh_none() {
+        assert!(moment(Phase::Rayleigh, 1).abs() < 1e-12, "Rayleigh is symmetric");
+        for g in [-0.6, 0.2, 0.85] {
+            let mean = moment(Phase::HenyeyGreenstein { g }, 1);
+            assert!((mean - g).abs() < 1e-9, "g = {g}: {mean}");
+        }
+    }
+
+    #[test]
+    fn cornette_shanks_has_its_published_mean_cosine() {
+        for g in [-0.6_f64, 0.3, 0.76] {
+            let mean = moment(Phase::CornetteShanks { g }, 1);
+            let want = 3.0 * g * (4.0 + g * g) / (5.0 * (2.0 + g * g));
+            assert!((mean - want).abs() < 1e-9, "g = {g}: {mean} {want}");
+        }
+    }
+
+    #[test]
+    fn cornette_shanks_without_lobe_is_rayleigh() {
+        for mu in [-1.0, -0.4, 0.0, 0.7, 1.0] {
+            assert!((phase_cornette_shanks(mu, 0.0) - phase_rayleigh(mu)).abs() < 1e-15, "{mu}");
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! Equation (1): light of the sun scattered once towards the observer, by direct quadrature. The reference of all sky
+//! tables; about 10 ms a direction.
+//!
+//! Corrections to the printed equation: phase functions are normalised to 1 over the sphere; the upper limit `H_a` is a
+//! length along the ray; points from which the sun is hidden by the planet contribute nothing; aerosols ("omitted for
+//! brevity") add a second term with its own profile, phase function and absorption; rays that meet the ground end there.
+
+use std::f64::consts::PI;
+
+use crate::Atmosphere;
+use crate::atmosphere::{AEROSOL, AIR, MEDIUM_COUNT, SCATTERER_COUNT};
+use crate::geometry::{altitude_along, distance_to_ground, distance_to_top, horizon_mu, mu_along, shadow_interval};
+use crate::optical_length::{Columns, columns_along, columns_to_top};
+use crate::quadrature::{NODES, RUNNING, WEIGHTS};
+
+/// An observer's ray, by its altitude and cosines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Altitude of the observer [m], 0 to the top.
+    pub h_m: f64,
+    /// Cosine of the ray's zenith angle.
+    pub mu: f64,
+    /// Cosine of the sun's zenith angle.
+    pub mu_sun: f64,
+    /// Cosine of the angle between ray and sun.
+    pub nu: f64,
+}
+
+impl Ray {
+    /// From zenith angles and the azimuth between ray and sun [rad].
+    #[must_use]
+    pub fn from_angles(h_m: f64, view_zenith: f64, sun_zenith: f64, azimuth: f64) -> Self {
+        let (mu, mu_sun) = (view_zenith.cos(), sun_zenith.cos());
+        let nu = (mu * mu_sun + view_zenith.sin() * sun_zenith.sin() * azimuth.cos()).clamp(-1.0, 1.0);
+        Self { h_m, mu, mu_sun, nu }
+    }
+}
+
+/// Where a ray ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayEnd {
+    /// Distance [m].
+    pub length_m: f64,
+    /// Whether it ends at the ground.
+    pub on_ground: bool,
+}
+
+/// End of a ray at the ground or at the top of the atmosphere.
+#[must_use]
+pub fn ray_end(atmosphere: &Atmosphere, h_m: f64, mu: f64) -> RayEnd {
+    let radius_m = atmosphere.planet_radius_m;
+    distance_to_ground(radius_m, h_m, mu).map_or_else(
+        || RayEnd { length_m: distance_to_top(radius_m, atmosphere.top_altitude_m, h_m, mu), on_ground: false },
+        |length_m| RayEnd { length_m, on_ground: true },
+    )
+}
+
+/// Radiance of the sky in one direction [W/m^2/sr/nm] per wavelength: air, aerosol and the sunlit ground, each behind
+/// the atmosphere in front of it.
+#[must_use]
+pub fn single_scattering(atmosphere: &Atmosphere, ray: &Ray) -> Vec<f64> {
+    let end = ray_end(atmosphere, ray.h_m, ray.mu);
+    let parts = scattered_parts(atmosphere, ray, end.length_m);
+    let ground = if end.on_ground { sunlit_ground(atmosphere, ray, end.length_m) } else { vec![0.0; parts[0].len()] };
+    let phases = [AIR, AEROSOL].map(|medium| atmosphere.media[medium].phase.value(ray.nu));
+    (0..ground.len()).map(|i| phases[AIR] * parts[AIR][i] + phases[AEROSOL] * parts[AEROSOL][i] + ground[i]).collect()
+}
+
+/// Panels of four nodes on each lit stretch; doubling them changes no direction by more than 1e-6.
+const PANELS: usize = 96;
+
+/// The integral of equation (1) up to `length_m` for air and aerosol, before the phase function [W/m^2/nm].
+#[must_use]
+pub fn scattered_parts(atmosphere: &Atmosphere, ray: &Ray, length_m: f64) -> [Vec<f64>; SCATTERER_COUNT] {
+    let mut parts = [AIR, AEROSOL].map(|_| vec![0.0; atmosphere.wavelengths_nm.len()]);
+    let radius_m = atmosphere.planet_radius_m;
+    let shadow = shadow_interval(radius_m, ray.h_m, ray.mu, ray.mu_sun, ray.nu).unwrap_or((length_m, length_m));
+    let lowest_m = (-(radius_m + ray.h_m) * ray.mu).clamp(0.0, length_m);
+    let stretches = [(0.0, shadow.0.min(length_m)), (shadow.1.min(length_m), length_m)];
+    for (start_m, end_m) in stretches {
+        for (from_m, to_m) in [(start_m, end_m.min(lowest_m)), (start_m.max(lowest_m), end_m)] {
+            if to_m > from_m {
+                add_stretch(atmosphere, ray, (from_m, to_m), from_m >= lowest_m, &mut parts);
+            }
+        }
+    }
+    parts
+}
+
+/// Adds a lit stretch that does not cross the lowest point of the ray; nodes cluster at its lower end.
+fn add_stretch(
+    atmosphere: &Atmosphere,
+    ray: &Ray,
+    (from_m, to_m): (f64, f64),
+    rising: bool,
+    parts: &mut [Vec<f64>; SCATTERER_COUNT],
+) {
+    let span_m = to_m - from_m;
+    let position = |x: f64| if rising { from_m + span_m * x * x } else { to_m - span_m * (1.0 - x) * (1.0 - x) };
+    let speed = |x: f64| 2.0 * span_m * if rising { x } else { 1.0 - x };
+    let mut columns = columns_along(atmosphere, ray.h_m, ray.mu, from_m);
+    for panel in 0..PANELS {
+        let width = 1.0 / PANELS as f64;
+        let nodes = NODES.map(|node| {
+            let x = (panel as f64 + node) * width;
+            (position(x), speed(x) * width)
+        });
+        let densities: [[f64; MEDIUM_COUNT]; 4] = nodes.map(|(t_m, step_m)| {
+            let altitude_m = altitude_along(atmosphere.planet_radius_m, ray.h_m, ray.mu, t_m).max(0.0);
+            atmosphere.media.each_ref().map(|medium| medium.profile.density(altitude_m) * step_m)
+        });
+        for (i, (t_m, _)) in nodes.into_iter().enumerate() {
+            let here: Columns =
+                std::array::from_fn(|m| columns[m] + (0..4).map(|j| RUNNING[i][j] * densities[j][m]).sum::<f64>());
+            let sun = sun_columns(atmosphere, ray, t_m);
+            let path: Columns = std::array::from_fn(|m| here[m] + sun[m]);
+            for (wavelength, solar) in atmosphere.solar_irradiance_w_m2_nm.iter().enumerate() {
+                let light = solar * (-atmosphere.optical_depth(&path, wavelength)).exp() * WEIGHTS[i];
+                for medium in [AIR, AEROSOL] {
+                    parts[medium][wavelength] +=
+                        light * atmosphere.media[medium].scattering_per_m[wavelength] * densities[i][medium];
+                }
+            }
+        }
+        for (m, column) in columns.iter_mut().enumerate() {
+            *column += (0..4).map(|j| WEIGHTS[j] * densities[j][m]).sum::<f64>();
+        }
+    }
+}
+
+/// Columns [m] from a point of the ray to the top of the atmosphere towards the sun.
+fn sun_columns(atmosphere: &Atmosphere, ray: &Ray, t_m: f64) -> Columns {
+    let radius_m = atmosphere.planet_radius_m;
+    let altitude_m = altitude_along(radius_m, ray.h_m, ray.mu, t_m).max(0.0);
+    let mu_sun = mu_along(radius_m, ray.h_m, ray.mu_sun, ray.nu, t_m, altitude_m);
+    columns_to_top(atmosphere, altitude_m, mu_sun)
+}
+
+/// Radiance of the ground in the sun, seen through the air in front of it [W/m^2/sr/nm]; skylight on the ground is left
+/// out here.
+fn sunlit_ground(atmosphere: &Atmosphere, ray: &Ray, length_m: f64) -> Vec<f64> {
+    let radius_m = atmosphere.planet_radius_m;
+    let mu_sun = mu_along(radius_m, ray.h_m, ray.mu_sun, ray.nu, length_m, 0.0);
+    if mu_sun <= horizon_mu(radius_m, 0.0) {
+        return vec![0.0; atmosphere.wavelengths_nm.len()];
+    }
+    let view = columns_along(atmosphere, ray.h_m, ray.mu, length_m);
+    let sun = columns_to_top(atmosphere, 0.0, mu_sun);
+    let path: Columns = std::array::from_fn(|m| view[m] + sun[m]);
+    let solar = atmosphere.solar_irradiance_w_m2_nm.iter().zip(&atmosphere.ground_albedo).enumerate();
+    solar
+        .map(|(i, (solar, albedo))| albedo / PI * solar * mu_sun * (-atmosphere.optical_depth(&path, i)).exp())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::{AtmosphereParams, GroundParams};
+
+    fn with(change: impl FnOnce(&mut AtmosphereParams)) -> Atmosphere {
+        let mut params = AtmosphereParams::default();
+        change(&mut params);
+        Atmosphere::new(&params, &GroundParams { red: 0.0, green: 0.0, blue: 0.0, ..GroundParams::default() })
+    }
+
+    #[test]
+    fn thin_air_scatters_in_proportion_to_its_optical_depth() {
+        // In the limit of thin air L = E p tau / mu, an analytic answer.
+        let atmosphere = with(|p| {
+            (p.air_density, p.aerosol_optical_depth, p.ozone_du) = (1e-6, 0.0, 0.0);
+        });
+        let ray = Ray::from_angles(0.0, 0.0, 0.7, 0.0);
+        let radiance = single_scattering(&atmosphere, &ray);
+        for (i, value) in radiance.iter().enumerate() {
+            let depth = atmosphere.media[AIR].scattering_per_m[i] * 8e3;
+            let want = atmosphere.solar_irradiance_w_m2_nm[i] * crate::phase::phase_rayleigh(ray.nu) * depth;
+            assert!((value / want - 1.0).abs() < 1e-5, "wavelength {i}: {value} {want}");
+        }
+    }
+
+    #[test]
+    fn a_plane_parallel_sky_has_the_analytic_radiance() {
+        // A planet so large that it is flat, one exponential medium: for mu = mu_sun
+        // L = E p (tau / mu) exp(-tau / mu), because every point's path has the same optical depth.
+        let atmosphere = with(|p| {
+            (p.planet_radius_km, p.aerosol_optical_depth, p.ozone_du) = (100_000.0, 0.0, 0.0);
+        });
+        let mu: f64 = 0.8;
+        let ray = Ray::from_angles(0.0, mu.acos(), mu.acos(), 1.0);
+        for (i, value) in single_scattering(&atmosphere, &ray).iter().enumerate() {
+            let tau = atmosphere.media[AIR].scattering_per_m[i] * 8e3 / mu;
+            let solar = atmosphere.solar_irradiance_w_m2_nm[i];
+            let want = solar * crate::phase::phase_rayleigh(ray.nu) * tau * (-tau).exp();
+            // The sphere of 100,000 km leaves a curvature of H / R = 8e-5.
+            assert!((value / want - 1.0).abs() < 2e-4, "wavelength {i}: {value} {want}");
+        }
+    }
+
+    #[test]
+    fn the_sky_is_symmetric_about_the_suns_meridian() {
+        let atmosphere = with(|_| {});
+        let left = single_scattering(&atmosphere, &Ray::from_angles(10.0, 1.2, 1.0, 0.8));
+        let right = single_scattering(&atmosphere, &Ray::from_angles(10.0, 1.2, 1.0, -0.8));
+        assert_eq!(left, right, "mirror image");
+    }
+
+    #[test]
+    fn the_earths_shadow_is_dark_and_the_air_above_it_is_lit() {
+        let atmosphere = with(|_| {});
+        let sun_zenith = 96.0_f64.to_radians();
+        let at = |elevation: f64| {
+            let ray = Ray::from_angles(0.0, (90.0 - elevation).to_radians(), sun_zenith, PI);
+            single_scattering(&atmosphere, &ray)[5]
+        };
+        // Opposite the sun, 6 degrees down, the shadow's edge stands near 6 degrees.
+        assert!(at(2.0) < 0.05 * at(15.0), "{} {}", at(2.0), at(15.0));
+    }
+
+    #[test]
+    fn a_change_of_the_wavelength_list_changes_no_wavelength() {
+        let all = with(|_| {});
+        let mut one = all.clone();
+        one.wavelengths_nm = vec![all.wavelengths_nm[2]];
+        one.solar_irradiance_w_m2_nm = vec![all.solar_irradiance_w_m2_nm[2]];
+        one.ground_albedo = vec![all.ground_albedo[2]];
+        for (medium, full) in one.media.iter_mut().zip(&all.media) {
+            medium.scattering_per_m = vec![full.scattering_per_m[2]];
+            medium.absorption_per_m = vec![full.absorption_per_m[2]];
+        }
+        let ray = Ray::from_angles(100.0, 1.0, 0.5, 2.0);
+        let (alone, among) = (single_scattering(&one, &ray)[0], single_scattering(&all, &ray)[2]);
+        assert!((alone - among).abs() < 1e-12 * among, "{alone} {among}");
+    }
+}

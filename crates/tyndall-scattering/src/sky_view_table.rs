@@ -1,0 +1,244 @@
+//! Table of the sky for one observer altitude and one sun: directions to radiance.
+//!
+//! What the paper calls the look-up table of the sky's intensity distribution. Rows run from the nadir over the horizon
+//! to the zenith, half below and half above, quadratically dense at the horizon, which no interpolation crosses; columns
+//! run over the azimuth from the sun, 0 to pi, the other half being its mirror image. A texel holds linear Rec.709 of
+//! light scattered by air and by aerosol *before* their phase functions, which are multiplied per pixel, so that the
+//! aureole is sharp at any size of the table. The sun's disc and the ground are not in it.
+//!
+//! Exact: [`crate::single_scattering`]; table: [`SkyViewTable::new`]; lookup: [`SkyViewTable::lookup`].
+//! WGSL: `shaders/sky/sky_view_*`.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use rayon::prelude::*;
+use tyndall_core::grid::Grid2;
+use tyndall_core::spectrum::rec709_from_spectrum;
+
+use crate::atmosphere::{AEROSOL, AIR};
+use crate::march::Marcher;
+use crate::single_scattering::Ray;
+
+/// Linear Rec.709 [cd/m^2 sr] by air and by aerosol, before the phase functions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkyTexel {
+    /// By air.
+    pub air: [f64; 3],
+    /// By aerosol.
+    pub aerosol: [f64; 3],
+}
+
+impl std::ops::Add for SkyTexel {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
+        Self { air: sum(self.air, other.air), aerosol: sum(self.aerosol, other.aerosol) }
+    }
+}
+
+impl std::ops::Mul<f64> for SkyTexel {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { air: self.air.map(|v| v * factor), aerosol: self.aerosol.map(|v| v * factor) }
+    }
+}
+
+/// The sky of one observer and one sun.
+#[derive(Clone, Debug)]
+pub struct SkyViewTable {
+    horizon_elevation: f64,
+    /// Above the horizon: azimuths x rows, row 0 at the horizon.
+    above: Grid2<SkyTexel>,
+    /// Below the horizon: azimuths x rows, row 0 at the horizon.
+    below: Grid2<SkyTexel>,
+}
+
+impl SkyViewTable {
+    /// Fills the table for an observer at `h_m` (inside the atmosphere) and a sun of zenith cosine `mu_sun`; `size` =
+    /// [azimuths, rows], rows even.
+    #[must_use]
+    pub fn new(marcher: &Marcher, h_m: f64, mu_sun: f64, size: [usize; 2]) -> Self {
+        let horizon_elevation = horizon_elevation(marcher.atmosphere.planet_radius_m, h_m);
+        let half = [size[0], size[1] / 2];
+        let texel = |x: usize, y: usize, above: bool| {
+            let unit = [x as f64 / (half[0] - 1) as f64, y as f64 / (half[1] - 1) as f64];
+            let (elevation, azimuth) = sky_view_map_inverse(horizon_elevation, above, unit);
+            let (mu, sine) = (elevation.sin(), elevation.cos());
+            let nu = mu * mu_sun + sine * (1.0 - mu_sun * mu_sun).max(0.0).sqrt() * azimuth.cos();
+            let parts = marcher.scattered_parts(&Ray { h_m, mu, mu_sun, nu: nu.clamp(-1.0, 1.0) });
+            SkyTexel { air: rec709_from_spectrum(&parts[AIR]), aerosol: rec709_from_spectrum(&parts[AEROSOL]) }
+        };
+        let fill = |above: bool| {
+            let cells =
+                (0..half[0] * half[1]).into_par_iter().map(|i| texel(i % half[0], i / half[0], above)).collect();
+            Grid2::from_cells(half, cells).expect("one texel per cell")
+        };
+        Self { horizon_elevation, above: fill(true), below: fill(false) }
+    }
+
+    /// The two parts in a direction: elevation above the horizontal and azimuth from the sun [rad].
+    #[must_use]
+    pub fn lookup(&self, elevation: f64, azimuth: f64) -> SkyTexel {
+        let above = elevation >= self.horizon_elevation;
+        let half = if above { &self.above } else { &self.below };
+        let unit = sky_view_map(self.horizon_elevation, elevation, azimuth);
+        let centre = |axis: usize| {
+            let count = half.size()[axis] as f64;
+            (unit[axis] * (count - 1.0) + 0.5) / count
+        };
+        half.sample([centre(0), centre(1)])
+    }
+
+    /// Radiance [cd/m^2] in a direction, phase functions included.
+    #[must_use]
+    pub fn radiance(&self, marcher: &Marcher, elevation: f64, azimuth: f64, nu: f64) -> [f64; 3] {
+        let texel = self.lookup(elevation, azimuth);
+        let [air, aerosol] = [AIR, AEROSOL].map(|medium| marcher.atmosphere.media[medium].phase.value(nu));
+        std::array::from_fn(|i| air * texel.air[i] + aerosol * texel.aerosol[i])
+    }
+
+    /// Texels below the horizon from the nadir up, then above it up to the zenith: the rows of the GPU's texture.
+    pub fn texels(&self) -> impl Iterator<Item = &SkyTexel> {
+        let columns = self.below.size()[0];
+        self.below.cells().chunks(columns).rev().flatten().chain(self.above.cells())
+    }
+}
+
+/// Elevation of the geometric horizon [rad], 0 or below.
+#[must_use]
+pub fn horizon_elevation(planet_radius_m: f64, h_m: f64) -> f64 {
+    -((h_m * (2.0 * planet_radius_m + h_m)).sqrt() / planet_radius_m).atan()
+}
+
+/// Place in a half of the table: azimuth from the sun over pi, and the root of the share of the way from the horizon to
+/// the zenith (or nadir).
+#[must_use]
+pub fn sky_view_map(horizon_elevation: f64, elevation: f64, azimuth: f64) -> [f64; 2] {
+    let from_horizon = elevation - horizon_elevation;
+    let whole = if from_horizon >= 0.0 { FRAC_PI_2 - horizon_elevation } else { -FRAC_PI_2 - horizon_elevation };
+    let folded = azimuth.rem_euclid(2.0 * PI);
+    [folded.min(2.0 * PI - folded) / PI, (from_horizon / whole).clamp(0.0, 1.0).sqrt()]
+}
+
+/// Elevation and azimuth [rad] of a place in a half of the table; the inverse of [`sky_view_map`].
+#[must_use]
+pub fn sky_view_map_inverse(horizon_elevation: f64, above: bool, unit: [f64; 2]) -> (f64, f64) {
+    let whole = if above { FRAC_PI_2 - horizon_elevation } else { -FRAC_PI_2 - horizon_elevation };
+    (horizon_elevation + whole * unit[1] * unit[1], PI * unit[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Atmosphere;
+    use crate::params::{AtmosphereParams, GroundParams};
+    use crate::single_scattering::single_scattering;
+
+    fn marcher(panels: usize) -> Marcher {
+        let black = GroundParams { red: 0.0, green: 0.0, blue: 0.0, ..GroundParams::default() };
+        Marcher::new(Atmosphere::new(&AtmosphereParams::default(), &black), panels).unwrap()
+    }
+
+    #[test]
+    fn the_map_and_its_inverse_are_inverse_and_the_horizon_is_an_edge() {
+        for horizon in [0.0, -0.03, -1.2] {
+            for above in [true, false] {
+                for unit in [[0.0, 0.0], [0.5, 0.25], [1.0, 1.0], [0.1, 0.01]] {
+                    let (elevation, azimuth) = sky_view_map_inverse(horizon, above, unit);
+                    let back = sky_view_map(horizon, elevation, azimuth);
+                    let near = (back[0] - unit[0]).abs() < 1e-9 && (back[1] - unit[1]).abs() < 1e-7;
+                    assert!(near, "{horizon} {above} {unit:?} {back:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn azimuths_on_both_sides_of_the_sun_are_the_same_texel() {
+        let [left, right] = [0.7, -0.7].map(|azimuth| sky_view_map(-0.1, 0.4, azimuth));
+        assert!((left[0] - right[0]).abs() < 1e-12, "{left:?} {right:?}");
+    }
+
+    /// Directions on no texel's centre, from the zenith to half a degree above the horizon.
+    fn directions() -> impl Iterator<Item = (f64, f64)> {
+        let zeniths = [0.3, 20.7, 45.2, 61.1, 75.3, 82.1, 85.7, 88.1, 89.0, 89.5];
+        zeniths.into_iter().flat_map(|zenith: f64| [3.1, 41.3, 97.9, 171.7].map(|azimuth: f64| (zenith, azimuth)))
+    }
+
+    const SUN_ZENITHS_DEG: [f64; 7] = [0.0, 30.0, 60.0, 75.0, 85.0, 88.0, 90.0];
+    const EYE_M: f64 = 2.0;
+
+    #[test]
+    fn the_march_equals_the_exact_integral_within_three_per_mille() {
+        let marcher = marcher(8);
+        let mut worst = 0.0_f64;
+        for sun_zenith in SUN_ZENITHS_DEG {
+            for (zenith, azimuth) in directions() {
+                let [view, sun, azimuth] = [zenith, sun_zenith, azimuth].map(f64::to_radians);
+                let ray = Ray::from_angles(EYE_M, view, sun, azimuth);
+                let parts = marcher.scattered_parts(&ray);
+                let [air, aerosol] = [AIR, AEROSOL].map(|medium| marcher.atmosphere.media[medium].phase.value(ray.nu));
+                let exact = single_scattering(&marcher.atmosphere, &ray);
+                // Relative to the direction's strongest wavelength: at the horizon of a setting sun violet is 1e-7 of red.
+                let strongest = exact.iter().copied().fold(0.0, f64::max);
+                for (k, exact) in exact.into_iter().enumerate() {
+                    let error = (air * parts[AIR][k] + aerosol * parts[AEROSOL][k] - exact).abs() / strongest;
+                    assert!(error < 3e-3, "sun {sun_zenith} view {zenith} wavelength {k}: {error:.1e}");
+                    worst = worst.max(error);
+                }
+            }
+        }
+        println!("march against exact integral: worst {worst:.1e}");
+    }
+
+    #[test]
+    fn the_table_equals_the_exact_integral_within_half_a_per_cent() {
+        let marcher = marcher(8);
+        let mut worst = 0.0_f64;
+        for sun_zenith in SUN_ZENITHS_DEG {
+            let mu_sun = sun_zenith.to_radians().cos();
+            let table = SkyViewTable::new(&marcher, EYE_M, mu_sun, [96, 320]);
+            let exact: Vec<_> = directions()
+                .map(|(zenith, azimuth)| {
+                    let [view, sun, azimuth] = [zenith, sun_zenith, azimuth].map(f64::to_radians);
+                    let ray = Ray::from_angles(EYE_M, view, sun, azimuth);
+                    let spectrum = single_scattering(&marcher.atmosphere, &ray).try_into().expect("eight wavelengths");
+                    (view, azimuth, ray.nu, rec709_from_spectrum(&spectrum))
+                })
+                .collect();
+            let brightest = exact.iter().flat_map(|(.., rgb)| rgb).fold(0.0_f64, |a, b| a.max(*b));
+            for (view, azimuth, nu, want) in exact {
+                let got = table.radiance(&marcher, FRAC_PI_2 - view, azimuth, nu);
+                // Relative to the pixel's largest channel; in the earth's shadow, where the radiance falls by decades
+                // within a degree, to a hundredth of the brightest direction.
+                let scale = want.iter().fold(0.01 * brightest, |a, b| a.max(b.abs()));
+                let error = got.iter().zip(want).map(|(g, w)| (g - w).abs() / scale).fold(0.0, f64::max);
+                assert!(error < 5e-3, "sun {sun_zenith} view {}: {error:.1e}", view.to_degrees());
+                worst = worst.max(error);
+            }
+        }
+        println!("sky table against exact integral: worst {worst:.1e}");
+    }
+
+    #[test]
+    fn the_sky_is_continuous_across_the_edges_of_the_shadow_for_every_sun() {
+        let marcher = marcher(8);
+        for sun in 0..40 {
+            let sun_zenith = (84.0 + 0.37 * f64::from(sun)).to_radians();
+            let at = |elevation: f64| {
+                let ray = Ray::from_angles(EYE_M, FRAC_PI_2 - elevation, sun_zenith, 2.5);
+                marcher.scattered_parts(&ray)[AIR][5]
+            };
+            let (mut before, step) = (at(0.01), 0.002);
+            for i in 1..200 {
+                let here = at(0.01 + step * f64::from(i));
+                assert!(here.is_finite() && here >= 0.0, "{here}");
+                let jump = (here - before).abs();
+                assert!(jump <= 0.25 * here.max(before) + 1e-3, "sun {sun_zenith} row {i}: {before} {here}");
+                before = here;
+            }
+        }
+    }
+}
