@@ -1,6 +1,10 @@
 //! Everything that can be wrong with a scene.
 
+use std::{io, path::PathBuf};
+
 use tyndall_core::ParamError;
+
+use crate::{Place, file};
 
 /// Why a scene was refused. Every message names the parameter by its path, its value, its unit and what is allowed.
 #[derive(Debug, thiserror::Error)]
@@ -58,21 +62,140 @@ pub enum SceneError {
         /// The algorithm's own words.
         reason: String,
     },
+    /// A value of another type than the parameter's.
+    #[error("`{path}`{} is {found}, not {expected}", equals(text))]
+    WrongType {
+        /// Path of the parameter or the group.
+        path: String,
+        /// The value as the user wrote it; its beginning when it is long, nothing when it is a table.
+        text: String,
+        /// Type of the value, with its article.
+        found: String,
+        /// What would be allowed.
+        expected: String,
+    },
+    /// The file does not say which format it is in.
+    #[error("`format` is missing; a scene file begins with `format = {}`", file::FORMAT)]
+    FormatMissing,
+    /// The file is in a format that this version does not know.
+    #[error("`format` = {found} is not known; this version reads format {}{}", file::FORMAT, newer(*found))]
+    FormatUnknown {
+        /// The format that the file names.
+        found: i64,
+    },
+    /// The file is not TOML.
+    #[error("{message}{}{}", within(field.as_deref()), takes(expected.as_deref()))]
+    Syntax {
+        /// What the reader of TOML met.
+        message: String,
+        /// The key on whose line it happened, or the table.
+        field: Option<String>,
+        /// What the parameter on that line takes.
+        expected: Option<String>,
+    },
+    /// The file is not UTF-8 text.
+    #[error("not UTF-8 text; is this a scene file?")]
+    NotText,
+    /// The file is larger than any scene.
+    #[error("{}: larger than {} bytes, the most that a scene file may have", path.display(), file::MAX_BYTES)]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder was named where a file is needed.
+    #[error("{}: is a folder, not a scene file", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The file could not be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// The file could not be written; what was there before is unchanged.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// Any of the above, at a place in a file.
+    #[error("{place}: {problem}")]
+    At {
+        /// File, line and column.
+        place: Box<Place>,
+        /// What is wrong there.
+        problem: Box<Self>,
+    },
 }
 
 impl SceneError {
     /// Path of the parameter that is wrong (`sun.elevation_deg`), where one can be named.
     #[must_use]
     pub fn field(&self) -> Option<String> {
+        self.fields().into_iter().next()
+    }
+
+    /// The place in the scene file, when the scene came from one.
+    #[must_use]
+    pub fn place(&self) -> Option<&Place> {
+        if let Self::At { place, .. } = self { Some(place) } else { None }
+    }
+
+    /// The message for a terminal: with the line of the file and a caret under the place. No colours; ends in a line break.
+    #[must_use]
+    pub fn report(&self) -> String {
         match self {
-            Self::UnknownGroup { name, .. } => Some(name.clone()),
-            Self::UnknownParameter { path, .. } => Some(path.clone()),
-            Self::Value { group, source } => Some(format!("{group}.{}", name_of(source))),
-            Self::Day { .. } => Some("sun.day".to_owned()),
-            Self::OzoneAboveTop { .. } => Some("atmosphere.ozone_altitude_km".to_owned()),
-            Self::SunPosition { .. } => Some("sun.position".to_owned()),
+            Self::At { place, problem } => format!("error: {problem}\n{}", place.excerpt()),
+            other => format!("error: {other}\n"),
         }
     }
+
+    /// The same error at a place in a file.
+    pub(crate) fn at(self, place: Place) -> Self {
+        Self::At { place: Box::new(place), problem: Box::new(self) }
+    }
+
+    /// Paths of all parameters that take part in the error, the one to blame first.
+    pub(crate) fn fields(&self) -> Vec<String> {
+        match self {
+            Self::UnknownGroup { name, .. } => vec![name.clone()],
+            Self::UnknownParameter { path, .. } | Self::WrongType { path, .. } => vec![path.clone()],
+            Self::Value { group, source } => vec![format!("{group}.{}", name_of(source))],
+            Self::Day { .. } => ["sun.day", "sun.month", "sun.year"].map(str::to_owned).to_vec(),
+            Self::OzoneAboveTop { .. } => {
+                ["atmosphere.ozone_altitude_km", "atmosphere.top_altitude_km"].map(str::to_owned).to_vec()
+            }
+            Self::SunPosition { .. } => vec!["sun.position".to_owned()],
+            Self::FormatMissing | Self::FormatUnknown { .. } => vec!["format".to_owned()],
+            Self::Syntax { field, .. } => field.iter().cloned().collect(),
+            Self::At { problem, .. } => problem.fields(),
+            Self::NotText | Self::TooLarge { .. } | Self::Folder { .. } | Self::Read { .. } | Self::Write { .. } => {
+                vec![]
+            }
+        }
+    }
+}
+
+fn newer(found: i64) -> &'static str {
+    if found > file::FORMAT { "; a newer version of Tyndall wrote this file" } else { "" }
+}
+
+fn equals(text: &str) -> String {
+    if text.is_empty() { String::new() } else { format!(" = {text}") }
+}
+
+fn takes(expected: Option<&str>) -> String {
+    expected.map_or(String::new(), |expected| format!(", which takes {expected}"))
+}
+
+fn within(field: Option<&str>) -> String {
+    field.map_or(String::new(), |field| format!(", in `{field}`"))
 }
 
 fn hint(nearest: Option<&str>) -> String {

@@ -1,23 +1,36 @@
 //! Scenes: what a picture shows, as parameters, as a TOML file, and as the camera and the sun that follow from them.
 //!
 //! - [`Scene`]: the seven groups of parameters, reached by path (`sun.elevation_deg`), checked and hashed.
+//! - [`SceneFile`]: scene files, read with exact error positions and written with the user's comments kept.
 //! - [`params`]: camera, sun, sky, film and image; atmosphere and ground come from [`tyndall_scattering::params`].
+//! - [`presets`]: the scenes that come with Tyndall.
+//! - [`schema`] and [`markdown_table`]: the format for editors and for readers.
 //! - [`sun`]: direction of the sun from angles or from date, time and place.
 //! - [`camera`]: axes, rays and matrices of the camera, and how it moves.
 
+mod brief;
 pub mod camera;
+mod command_line;
+mod docs;
 mod error;
+mod file;
 mod hash;
 mod nearest;
 pub mod params;
+mod place;
+mod preset;
 mod scene;
 pub mod sun;
 
+pub use docs::{markdown_table, schema};
 pub use error::SceneError;
+pub use file::{FORMAT, MAX_BYTES, SceneFile};
 pub use hash::SceneHash;
 pub use params::{
     CameraParams, ExposureMode, FilmParams, ImageParams, SkyMode, SkyParams, SunParams, SunPosition, ToneMap,
 };
+pub use place::Place;
+pub use preset::{Preset, presets};
 pub use scene::Scene;
 pub use sun::SunDirection;
 pub use tyndall_scattering::params::{AerosolPhase, AirModel, AtmosphereParams, GroundParams};

@@ -4,7 +4,7 @@ use tyndall_core::{ParamInfo, ParamSet};
 
 use crate::{
     AtmosphereParams, CameraParams, FilmParams, GroundParams, ImageParams, SceneError, SceneHash, SkyParams,
-    SunDirection, SunParams, nearest::nearest, sun,
+    SunDirection, SunParams, brief::brief, nearest::nearest, sun,
 };
 
 /// Everything that a picture depends on, and its title.
@@ -114,6 +114,12 @@ impl Scene {
         SceneHash::of(self)
     }
 
+    /// The declaration of the parameter at a path.
+    pub(crate) fn info(&self, path: &str) -> Result<&'static ParamInfo, SceneError> {
+        let (group, index) = self.find(path)?;
+        Ok(&self.groups()[group].1.info()[index])
+    }
+
     fn set_checked(
         &mut self,
         path: &str,
@@ -141,12 +147,14 @@ impl Scene {
 
     /// The refusal of a group, with the nearest group or, for a parameter without its group, the parameter's path.
     pub(crate) fn unknown_group(&self, name: &str) -> SceneError {
+        let name = &brief(name);
         let group = nearest(name, self.groups().into_iter().map(|(group, _)| group)).map(str::to_owned);
-        SceneError::UnknownGroup { name: name.to_owned(), nearest: self.home_of(name).or(group) }
+        SceneError::UnknownGroup { name: name.clone(), nearest: self.home_of(name).or(group) }
     }
 
     /// The refusal of a parameter, with the nearest one of the group, or its home in another group.
     pub(crate) fn unknown_parameter(&self, group: &str, name: &str) -> SceneError {
+        let name = &brief(name);
         let set = self.groups().into_iter().find(|(known, _)| *known == group);
         let names = set.iter().flat_map(|(_, set)| set.info()).map(|info| info.name);
         let near = nearest(name, names).map(|near| format!("{group}.{near}"));

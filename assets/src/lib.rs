@@ -1,0 +1,27 @@
+//! The scenes that come with Tyndall, as files beside this crate and as text in the program. A crate of its own, because a
+//! package can include only files of its own folder.
+
+/// Name and text of every scene, in the order in which galleries show them.
+pub const SCENES: &[(&str, &str)] = &[
+    ("noon", include_str!("../scenes/noon.toml")),
+    ("low-sun", include_str!("../scenes/low-sun.toml")),
+    ("sunset", include_str!("../scenes/sunset.toml")),
+    ("twilight", include_str!("../scenes/twilight.toml")),
+    ("high-altitude", include_str!("../scenes/high-altitude.toml")),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::SCENES;
+
+    #[test]
+    fn every_scene_of_the_folder_is_in_the_table_and_no_other() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
+        let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut found: Vec<_> = files.filter_map(|name| name.strip_suffix(".toml").map(str::to_owned)).collect();
+        let mut known: Vec<_> = SCENES.iter().map(|(name, _)| (*name).to_owned()).collect();
+        found.sort();
+        known.sort();
+        assert_eq!(found, known, "files in {folder} against the table");
+    }
+}
