@@ -3,6 +3,29 @@
 //! Positions are an altitude h above the sphere of radius R; differences of squares are written h (2R + h). The same
 //! expressions hold in f32 in `shaders/common/sphere.wgsl`.
 
+/// An observer's ray, by its altitude and cosines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Altitude of the observer [m], 0 to the top.
+    pub h_m: f64,
+    /// Cosine of the ray's zenith angle.
+    pub mu: f64,
+    /// Cosine of the sun's zenith angle.
+    pub mu_sun: f64,
+    /// Cosine of the angle between ray and sun.
+    pub nu: f64,
+}
+
+impl Ray {
+    /// From zenith angles and the azimuth between ray and sun [rad].
+    #[must_use]
+    pub fn from_angles(h_m: f64, view_zenith: f64, sun_zenith: f64, azimuth: f64) -> Self {
+        let (mu, mu_sun) = (view_zenith.cos(), sun_zenith.cos());
+        let nu = (mu * mu_sun + view_zenith.sin() * sun_zenith.sin() * azimuth.cos()).clamp(-1.0, 1.0);
+        Self { h_m, mu, mu_sun, nu }
+    }
+}
+
 /// Altitude [m] at distance `t_m` along a ray that starts at altitude `h_m` with zenith cosine `mu`.
 #[must_use]
 pub fn altitude_along(radius_m: f64, h_m: f64, mu: f64, t_m: f64) -> f64 {
@@ -41,31 +64,31 @@ pub fn mu_along(radius_m: f64, h_m: f64, mu_other: f64, nu: f64, t_m: f64, h_t_m
     (((radius_m + h_m) * mu_other + t_m * nu) / (radius_m + h_t_m)).clamp(-1.0, 1.0)
 }
 
-/// The stretch [m, m] of a ray that lies in the planet's shadow, a half cylinder behind the planet along the sunlight, or
-/// `None` when the ray stays in the light.
+/// The stretch [m, m] of a ray of `length_m` outside the planet that lies in the planet's shadow, a half cylinder behind
+/// the planet along the sunlight, or `None` when the ray stays in the light.
 ///
 /// Equation (1) of the paper does not mention it: the term is zero where the path to the sun meets the planet. The plane
 /// through the centre at right angles to the sunlight cuts the cylinder inside the planet, so a ray outside the planet
 /// lies in the shadow on one stretch or on none.
 #[must_use]
-pub fn shadow_interval(radius_m: f64, h_m: f64, mu: f64, mu_sun: f64, nu: f64) -> Option<(f64, f64)> {
-    let r = radius_m + h_m;
-    let along = r * mu_sun;
-    let a = 1.0 - nu * nu;
-    let b = r * mu - along * nu;
-    let c = h_m * (2.0 * radius_m + h_m) - along * along;
-    if a < 1e-12 {
-        // The ray runs along the sunlight: all in shadow or none, or, towards the sun, out of reach behind.
-        return (c < 0.0 && along < 0.0 && nu < 0.0).then_some((0.0, f64::INFINITY));
-    }
+pub fn shadow_interval(radius_m: f64, ray: &Ray, length_m: f64) -> Option<(f64, f64)> {
+    let r = radius_m + ray.h_m;
+    let along = r * ray.mu_sun;
+    // Distance from the cylinder's axis: a t^2 + 2 b t + c < 0 inside.
+    let a = 1.0 - ray.nu * ray.nu;
+    let b = r * ray.mu - along * ray.nu;
+    let c = ray.h_m * (2.0 * radius_m + ray.h_m) - along * along;
     let discriminant = b * b - a * c;
     if discriminant <= 0.0 {
         return None;
     }
     let root = discriminant.sqrt();
-    let (start, end) = ((-b - root) / a, (-b + root) / a);
-    let middle_is_behind = along + nu * 0.5 * (start.max(0.0) + end) < 0.0;
-    (end > 0.0 && middle_is_behind).then_some((start.max(0.0), end))
+    // The two roots without cancellation; a ray along the sunlight has a = 0 and one root at infinity.
+    let q = if b > 0.0 { -b - root } else { -b + root };
+    let (first, second) = if b > 0.0 { (q / a, c / q) } else { (c / q, q / a) };
+    let (start, end) = (first.max(0.0), second.min(length_m));
+    let behind = along + ray.nu * 0.5 * (start + end) < 0.0;
+    (end > start && behind).then_some((start, end))
 }
 
 #[cfg(test)]
@@ -117,10 +140,12 @@ mod tests {
         for i in 0..4000_u32 {
             let u = |k: u32| f64::from(tyndall_core::rng::CellRng::new(3).uniform(k, u64::from(i), 0));
             let (h, mu_sun, azimuth) = (u(0).powi(2) * 1e5, -0.5 + 0.7 * u(1), 6.3 * u(2));
-            let mu = horizon_mu(RADIUS_M, h) + (1.0 - horizon_mu(RADIUS_M, h)) * u(3);
+            let mu = 2.0 * u(3) - 1.0;
             let nu = mu * mu_sun + ((1.0 - mu * mu) * (1.0 - mu_sun * mu_sun)).sqrt() * azimuth.cos();
-            let t = u(4) * distance_to_top(RADIUS_M, TOP_M, h, mu);
-            let interval = shadow_interval(RADIUS_M, h, mu, mu_sun, nu);
+            let to_top = distance_to_top(RADIUS_M, TOP_M, h, mu);
+            let length = distance_to_ground(RADIUS_M, h, mu).unwrap_or(to_top);
+            let t = u(4) * length;
+            let interval = shadow_interval(RADIUS_M, &Ray { h_m: h, mu, mu_sun, nu }, length);
             let inside = interval.is_some_and(|(start, end)| start < t && t < end);
             assert_eq!(inside, in_shadow(h, mu, mu_sun, nu, t), "{h} {mu} {mu_sun} {nu} {t} {interval:?}");
             shadowed += u32::from(inside);

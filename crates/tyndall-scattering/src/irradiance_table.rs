@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use tyndall_core::spectrum::{Spectrum, WAVELENGTH_COUNT};
 
 use crate::atmosphere::{AEROSOL, AIR};
+use crate::geometry::Ray;
 use crate::march::Marcher;
-use crate::single_scattering::Ray;
 
 /// Nodes of the table.
 pub const IRRADIANCE_TABLE_SIZE: usize = 64;

@@ -10,10 +10,10 @@ use tyndall_core::spectrum::{Spectrum, WAVELENGTH_COUNT};
 
 use crate::atmosphere::{AEROSOL, AIR, Coefficients, MEDIUM_COUNT, SCATTERER_COUNT};
 use crate::column_table::ColumnTable;
-use crate::geometry::{altitude_along, mu_along, shadow_interval};
+use crate::geometry::{Ray, altitude_along, mu_along, shadow_interval};
 use crate::optical_length::Columns;
 use crate::quadrature::{NODES, RUNNING, WEIGHTS};
-use crate::single_scattering::{Ray, ray_end};
+use crate::single_scattering::ray_end;
 use crate::{Atmosphere, ScatteringError};
 
 /// An atmosphere with its columns, ready to march.
@@ -125,7 +125,7 @@ impl PathMap {
     fn new(radius_m: f64, ray: &Ray, length_m: f64) -> Self {
         let lowest_m = (-(radius_m + ray.h_m) * ray.mu).clamp(0.0, length_m);
         let mut map = Self { lowest_m, length_m, shadow: [2.0, 2.0], breaks: [0.0; Self::BREAKS] };
-        if let Some((start_m, end_m)) = shadow_interval(radius_m, ray.h_m, ray.mu, ray.mu_sun, ray.nu) {
+        if let Some((start_m, end_m)) = shadow_interval(radius_m, ray, length_m) {
             map.shadow = [start_m, end_m].map(|t_m| map.variable(t_m));
         }
         let start = if lowest_m > 0.0 { -1.0 } else { 0.0 };

@@ -9,32 +9,11 @@ use std::f64::consts::PI;
 
 use crate::Atmosphere;
 use crate::atmosphere::{AEROSOL, AIR, MEDIUM_COUNT, SCATTERER_COUNT};
-use crate::geometry::{altitude_along, distance_to_ground, distance_to_top, horizon_mu, mu_along, shadow_interval};
+use crate::geometry::{
+    Ray, altitude_along, distance_to_ground, distance_to_top, horizon_mu, mu_along, shadow_interval,
+};
 use crate::optical_length::{Columns, columns_along, columns_to_top};
 use crate::quadrature::{NODES, RUNNING, WEIGHTS};
-
-/// An observer's ray, by its altitude and cosines.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ray {
-    /// Altitude of the observer [m], 0 to the top.
-    pub h_m: f64,
-    /// Cosine of the ray's zenith angle.
-    pub mu: f64,
-    /// Cosine of the sun's zenith angle.
-    pub mu_sun: f64,
-    /// Cosine of the angle between ray and sun.
-    pub nu: f64,
-}
-
-impl Ray {
-    /// From zenith angles and the azimuth between ray and sun [rad].
-    #[must_use]
-    pub fn from_angles(h_m: f64, view_zenith: f64, sun_zenith: f64, azimuth: f64) -> Self {
-        let (mu, mu_sun) = (view_zenith.cos(), sun_zenith.cos());
-        let nu = (mu * mu_sun + view_zenith.sin() * sun_zenith.sin() * azimuth.cos()).clamp(-1.0, 1.0);
-        Self { h_m, mu, mu_sun, nu }
-    }
-}
 
 /// Where a ray ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,9 +53,9 @@ const PANELS: usize = 96;
 pub fn scattered_parts(atmosphere: &Atmosphere, ray: &Ray, length_m: f64) -> [Vec<f64>; SCATTERER_COUNT] {
     let mut parts = [AIR, AEROSOL].map(|_| vec![0.0; atmosphere.wavelengths_nm.len()]);
     let radius_m = atmosphere.planet_radius_m;
-    let shadow = shadow_interval(radius_m, ray.h_m, ray.mu, ray.mu_sun, ray.nu).unwrap_or((length_m, length_m));
+    let shadow = shadow_interval(radius_m, ray, length_m).unwrap_or((length_m, length_m));
     let lowest_m = (-(radius_m + ray.h_m) * ray.mu).clamp(0.0, length_m);
-    let stretches = [(0.0, shadow.0.min(length_m)), (shadow.1.min(length_m), length_m)];
+    let stretches = [(0.0, shadow.0), (shadow.1, length_m)];
     for (start_m, end_m) in stretches {
         for (from_m, to_m) in [(start_m, end_m.min(lowest_m)), (start_m.max(lowest_m), end_m)] {
             if to_m > from_m {

@@ -1,7 +1,7 @@
 //! Table of the sky for one observer altitude and one sun: directions to radiance.
 //!
 //! What the paper calls the look-up table of the sky's intensity distribution. Rows run from the nadir over the horizon
-//! to the zenith, half below and half above, quadratically dense at the horizon, which no interpolation crosses; columns
+//! to the zenith, a quarter below and the rest above, quadratically dense at the horizon, which no interpolation crosses; columns
 //! run over the azimuth from the sun, 0 to pi, the other half being its mirror image. A texel holds linear Rec.709 of
 //! light scattered by air and by aerosol *before* their phase functions, which are multiplied per pixel, so that the
 //! aureole is sharp at any size of the table. The sun's disc and the ground are not in it.
@@ -16,8 +16,8 @@ use tyndall_core::grid::Grid2;
 use tyndall_core::spectrum::rec709_from_spectrum;
 
 use crate::atmosphere::{AEROSOL, AIR};
+use crate::geometry::Ray;
 use crate::march::Marcher;
-use crate::single_scattering::Ray;
 
 /// Linear Rec.709 [cd/m^2 sr] by air and by aerosol, before the phase functions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +45,9 @@ impl std::ops::Mul<f64> for SkyTexel {
     }
 }
 
+/// One row in so many lies below the horizon.
+pub const ROWS_PER_ROW_BELOW: usize = 4;
+
 /// The sky of one observer and one sun.
 #[derive(Clone, Debug)]
 pub struct SkyViewTable {
@@ -57,38 +60,39 @@ pub struct SkyViewTable {
 
 impl SkyViewTable {
     /// Fills the table for an observer at `h_m` (inside the atmosphere) and a sun of zenith cosine `mu_sun`; `size` =
-    /// [azimuths, rows], rows even.
+    /// [azimuths, rows], rows a multiple of 4.
     #[must_use]
     pub fn new(marcher: &Marcher, h_m: f64, mu_sun: f64, size: [usize; 2]) -> Self {
         let horizon_elevation = horizon_elevation(marcher.atmosphere.planet_radius_m, h_m);
-        let half = [size[0], size[1] / 2];
-        let texel = |x: usize, y: usize, above: bool| {
-            let unit = [x as f64 / (half[0] - 1) as f64, y as f64 / (half[1] - 1) as f64];
+        let rows_below = size[1] / ROWS_PER_ROW_BELOW;
+        let texel = |x: usize, y: usize, part: [usize; 2], above: bool| {
+            let unit = [x as f64 / (part[0] - 1) as f64, y as f64 / (part[1] - 1) as f64];
             let (elevation, azimuth) = sky_view_map_inverse(horizon_elevation, above, unit);
             let (mu, sine) = (elevation.sin(), elevation.cos());
             let nu = mu * mu_sun + sine * (1.0 - mu_sun * mu_sun).max(0.0).sqrt() * azimuth.cos();
             let parts = marcher.scattered_parts(&Ray { h_m, mu, mu_sun, nu: nu.clamp(-1.0, 1.0) });
             SkyTexel { air: rec709_from_spectrum(&parts[AIR]), aerosol: rec709_from_spectrum(&parts[AEROSOL]) }
         };
-        let fill = |above: bool| {
+        let fill = |rows: usize, above: bool| {
+            let part = [size[0], rows];
             let cells =
-                (0..half[0] * half[1]).into_par_iter().map(|i| texel(i % half[0], i / half[0], above)).collect();
-            Grid2::from_cells(half, cells).expect("one texel per cell")
+                (0..size[0] * rows).into_par_iter().map(|i| texel(i % size[0], i / size[0], part, above)).collect();
+            Grid2::from_cells(part, cells).expect("one texel per cell")
         };
-        Self { horizon_elevation, above: fill(true), below: fill(false) }
+        Self { horizon_elevation, above: fill(size[1] - rows_below, true), below: fill(rows_below, false) }
     }
 
     /// The two parts in a direction: elevation above the horizontal and azimuth from the sun [rad].
     #[must_use]
     pub fn lookup(&self, elevation: f64, azimuth: f64) -> SkyTexel {
         let above = elevation >= self.horizon_elevation;
-        let half = if above { &self.above } else { &self.below };
+        let part = if above { &self.above } else { &self.below };
         let unit = sky_view_map(self.horizon_elevation, elevation, azimuth);
         let centre = |axis: usize| {
-            let count = half.size()[axis] as f64;
+            let count = part.size()[axis] as f64;
             (unit[axis] * (count - 1.0) + 0.5) / count
         };
-        half.sample([centre(0), centre(1)])
+        part.sample([centre(0), centre(1)])
     }
 
     /// Radiance [cd/m^2] in a direction, phase functions included.
@@ -112,7 +116,7 @@ pub fn horizon_elevation(planet_radius_m: f64, h_m: f64) -> f64 {
     -((h_m * (2.0 * planet_radius_m + h_m)).sqrt() / planet_radius_m).atan()
 }
 
-/// Place in a half of the table: azimuth from the sun over pi, and the root of the share of the way from the horizon to
+/// Place in a part of the table: azimuth from the sun over pi, and the root of the share of the way from the horizon to
 /// the zenith (or nadir).
 #[must_use]
 pub fn sky_view_map(horizon_elevation: f64, elevation: f64, azimuth: f64) -> [f64; 2] {
@@ -122,7 +126,7 @@ pub fn sky_view_map(horizon_elevation: f64, elevation: f64, azimuth: f64) -> [f6
     [folded.min(2.0 * PI - folded) / PI, (from_horizon / whole).clamp(0.0, 1.0).sqrt()]
 }
 
-/// Elevation and azimuth [rad] of a place in a half of the table; the inverse of [`sky_view_map`].
+/// Elevation and azimuth [rad] of a place in a part of the table; the inverse of [`sky_view_map`].
 #[must_use]
 pub fn sky_view_map_inverse(horizon_elevation: f64, above: bool, unit: [f64; 2]) -> (f64, f64) {
     let whole = if above { FRAC_PI_2 - horizon_elevation } else { -FRAC_PI_2 - horizon_elevation };
@@ -220,6 +224,22 @@ mod tests {
             }
         }
         println!("sky table against exact integral: worst {worst:.1e}");
+    }
+
+    #[test]
+    fn the_table_of_a_high_observer_holds_the_air_in_front_of_the_ground_too() {
+        let marcher = marcher(8);
+        let (h_m, mu_sun) = (10e3, 0.5_f64);
+        let table = SkyViewTable::new(&marcher, h_m, mu_sun, [96, 320]);
+        for (zenith, azimuth) in [(179.0, 0.4), (150.3, 1.3), (120.7, 2.0), (100.1, 0.2), (94.0, 2.9), (91.1, 1.7)] {
+            let view = f64::to_radians(zenith);
+            let ray = Ray::from_angles(h_m, view, mu_sun.acos(), azimuth);
+            let exact = single_scattering(&marcher.atmosphere, &ray).try_into().expect("eight wavelengths");
+            let got = table.radiance(&marcher, FRAC_PI_2 - view, azimuth, ray.nu);
+            for (got, want) in got.into_iter().zip(rec709_from_spectrum(&exact)) {
+                assert!((got / want - 1.0).abs() < 5e-3, "view {zenith}: {got} {want}");
+            }
+        }
     }
 
     #[test]
