@@ -174,3 +174,6 @@ fn check_group(group: &'static str, set: &dyn ParamSet) -> Result<(), SceneError
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,19 +1,4 @@
 //! Scene files: TOML in, TOML out, with the user's comments, order and formatting kept.
-//!
-//! ```
-//! use tyndall_scene::SceneFile;
-//!
-//! let mut file = SceneFile::parse("evening.toml", "format = 1\n[sun]\nelevation_deg = 4 # soon gone\n")?;
-//! file.scene.set("sun.elevation_deg", 3.5)?;
-//! assert_eq!(file.to_text(), "format = 1\n[sun]\nelevation_deg = 3.5 # soon gone\n");
-//!
-//! let error = SceneFile::parse("evening.toml", "format = 1\n[sun]\nelevation = 4\n").unwrap_err();
-//! assert_eq!(
-//!     error.to_string(),
-//!     "evening.toml:3:1: unknown parameter `sun.elevation`; did you mean `sun.elevation_deg`?"
-//! );
-//! # Ok::<(), tyndall_scene::SceneError>(())
-//! ```
 
 mod read;
 mod syntax;
@@ -37,6 +22,21 @@ pub const FORMAT: i64 = 1;
 pub const MAX_BYTES: usize = 1 << 20;
 
 /// A scene with the file it came from. Change [`SceneFile::scene`] at will; saving writes what differs.
+///
+/// ```
+/// use tyndall_scene::SceneFile;
+///
+/// let mut file = SceneFile::parse("evening.toml", "format = 1\n[sun]\nelevation_deg = 4 # soon gone\n")?;
+/// file.scene.set("sun.elevation_deg", 3.5)?;
+/// assert_eq!(file.to_text(), "format = 1\n[sun]\nelevation_deg = 3.5 # soon gone\n");
+///
+/// let error = SceneFile::parse("evening.toml", "format = 1\n[sun]\nelevation = 4\n").unwrap_err();
+/// assert_eq!(
+///     error.to_string(),
+///     "evening.toml:3:1: unknown parameter `sun.elevation`; did you mean `sun.elevation_deg`?"
+/// );
+/// # Ok::<(), tyndall_scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SceneFile {
     /// The scene.

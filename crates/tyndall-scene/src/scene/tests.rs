@@ -1,0 +1,118 @@
+//! Laws of reaching parameters by path, and of the hash.
+
+use super::*;
+use crate::{SunPosition, ToneMap};
+
+#[test]
+fn every_default_is_allowed_and_a_new_scene_passes_its_check() {
+    Scene::default().check().unwrap();
+}
+
+#[test]
+fn every_parameter_is_read_and_set_by_its_path() {
+    let mut scene = Scene::default();
+    let paths: Vec<_> =
+        scene.groups().iter().flat_map(|(group, set)| set.info().iter().map(move |info| (*group, info))).collect();
+    for (group, info) in paths {
+        let path = format!("{group}.{}", info.name);
+        for value in [*info.range.start(), *info.range.end(), info.default] {
+            scene.set(&path, value).unwrap();
+            assert_eq!(scene.get(&path).unwrap().to_bits(), value.to_bits(), "{path} after it was set to {value}");
+            scene.set_text(&path, &info.format(value)).unwrap();
+            assert_eq!(scene.get(&path).unwrap().to_bits(), value.to_bits(), "{path} after {}", info.format(value));
+        }
+    }
+    assert_eq!(scene, Scene::default(), "all at their defaults again");
+}
+
+#[test]
+fn both_lists_of_groups_have_the_same_names_in_the_same_order() {
+    let mut scene = Scene::default();
+    let names = scene.groups().map(|(name, _)| name);
+    assert_eq!(names, ["camera", "sun", "atmosphere", "ground", "sky", "film", "image"], "as in scene files");
+    assert_eq!(scene.groups_mut().map(|(name, _)| name), names, "mutable");
+}
+
+#[test]
+fn wrong_paths_are_refused_with_the_nearest_one() {
+    let mut scene = Scene::default();
+    for (path, message) in [
+        ("sun.elevation", "unknown parameter `sun.elevation`; did you mean `sun.elevation_deg`?"),
+        ("sum.disc", "unknown group `sum`; did you mean `sun`?"),
+        ("elevation_deg", "unknown group `elevation_deg`; did you mean `sun.elevation_deg`?"),
+        ("film.width_px", "unknown parameter `film.width_px`; did you mean `image.width_px`?"),
+        ("", "unknown group ``"),
+        ("sun.", "unknown parameter `sun.`"),
+    ] {
+        assert_eq!(scene.get(path).unwrap_err().to_string(), message, "get {path:?}");
+        assert_eq!(scene.set_text(path, "1").unwrap_err().to_string(), message, "set {path:?}");
+    }
+}
+
+#[test]
+fn refused_values_name_the_whole_path_and_change_nothing() {
+    let mut scene = Scene::default();
+    let error = scene.set("sun.elevation_deg", f64::NAN).unwrap_err();
+    assert_eq!(error.to_string(), "`sun.elevation_deg` = NaN deg is outside -90 to 90 deg", "{error}");
+    let error = scene.set_text("film.tone_map", "filmic").unwrap_err();
+    assert_eq!(error.to_string(), r#"`film.tone_map` = "filmic" is not one of "agx", "aces", "none""#, "{error}");
+    assert_eq!(scene, Scene::default(), "after two refusals");
+}
+
+#[test]
+fn ozone_above_the_top_is_refused_unless_there_is_none() {
+    let mut scene = Scene::default();
+    scene.atmosphere.top_altitude_km = 20.0;
+    assert!(matches!(scene.check(), Err(SceneError::OzoneAboveTop { .. })), "{:?}", scene.check());
+    scene.atmosphere.ozone_du = 0.0;
+    scene.check().unwrap();
+}
+
+#[test]
+fn a_value_written_past_the_setters_is_found_by_the_check() {
+    let mut scene = Scene::default();
+    scene.camera.altitude_m = f64::INFINITY;
+    assert_eq!(scene.check().unwrap_err().field().as_deref(), Some("camera.altitude_m"), "{:?}", scene.check());
+}
+
+#[test]
+fn any_change_of_a_parameter_changes_the_hash_and_titles_do_not() {
+    let base = Scene::default();
+    let mut seen = std::collections::HashSet::from([base.hash()]);
+    for (group, set) in base.groups() {
+        for info in set.info() {
+            let mut scene = base.clone();
+            let other = if info.default >= *info.range.end() { *info.range.start() } else { *info.range.end() };
+            scene.set(&format!("{group}.{}", info.name), other).unwrap();
+            assert!(seen.insert(scene.hash()), "{group}.{} does not count", info.name);
+        }
+    }
+    let titled = Scene { title: "T".to_owned(), description: "D".to_owned(), ..base.clone() };
+    assert_eq!(titled.hash(), base.hash(), "the picture is the same");
+}
+
+#[test]
+fn zero_and_minus_zero_have_one_hash() {
+    let mut scene = Scene::default();
+    scene.camera.x_m = -0.0;
+    assert_eq!(scene.hash(), Scene::default().hash(), "equal scenes");
+}
+
+#[test]
+fn the_hash_is_shown_as_hexadecimal_of_any_length() {
+    let hash = Scene::default().hash();
+    let long = hash.to_string();
+    assert_eq!(long.len(), 64, "{long}");
+    assert!(long.bytes().all(|byte| byte.is_ascii_hexdigit()), "{long}");
+    assert_eq!(format!("{hash:.16}"), long[..16], "{hash:.16}");
+}
+
+#[test]
+fn choices_travel_as_names_and_toggles_as_words() {
+    let mut scene = Scene::default();
+    scene.set_text("sun.position", "date").unwrap();
+    scene.set_text("film.tone_map", "aces").unwrap();
+    scene.set_text("sun.disc", "off").unwrap();
+    let found = (scene.sun.position, scene.film.tone_map, scene.sun.disc);
+    assert_eq!(found, (SunPosition::Date, ToneMap::Aces, false), "{found:?}");
+}
