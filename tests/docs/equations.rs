@@ -121,16 +121,16 @@ mod tests {
         for (row, fault) in [
             ("", "e.md: no row for equation (1)"),
             (
-                "| (1) | x | none | `tyndall_demo::fase` | | `phase_is_normalised` |\n",
-                "e.md:5: crates/tyndall-demo/src/lib.rs declares no fase",
+                "| (1) | x | none | `tyndall_demo::tone` | | `phase_is_normalised` |\n",
+                "e.md:5: crates/tyndall-demo/src/lib.rs declares no tone",
             ),
             (
-                "| (1) | x | none | `tyndall_demo::phase` | `shaders/phase.wgsl#fase` | `phase_is_normalised` |\n",
-                "e.md:5: shaders/phase.wgsl declares no fase",
+                "| (1) | x | none | `tyndall_demo::phase` | `shaders/phase.wgsl#tone` | `phase_is_normalised` |\n",
+                "e.md:5: shaders/phase.wgsl declares no tone",
             ),
             (
-                "| (1) | x | none | `tyndall_demo::phase` | `shaders/fase.wgsl` | `phase_is_normalised` |\n",
-                "e.md:5: there is no file shaders/fase.wgsl",
+                "| (1) | x | none | `tyndall_demo::phase` | `shaders/tone.wgsl` | `phase_is_normalised` |\n",
+                "e.md:5: there is no file shaders/tone.wgsl",
             ),
             (
                 "| (1) | x | none | `tyndall_demo::phase` | | `phase_is_positive` |\n",

@@ -1,8 +1,8 @@
 //! Writes a picture as `OpenEXR`: one part, scanlines, channels R G B A and Z.
 //!
 //! Values are scene-linear Rec.709 in cd/m^2 (`whiteLuminance` 1), alpha associated, Z the planar view distance in metres as
-//! 32-bit float. The file holds no NaN and no infinity. Equal pictures give equal bytes. 1920 x 1080 with ZIPS takes about
-//! a third of a second on two cores.
+//! 32-bit float. The file holds no NaN and no infinity. Equal pictures give equal bytes. 1920 x 1080 with ZIPS takes
+//! half a second on two cores that do other things too.
 
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer, LineOrder, WritableImage as _, f16,

@@ -40,6 +40,8 @@ enum Task {
     Test,
     /// Run every other check that CI makes
     Check {
+        /// Make only these checks, by their names as printed
+        names: Vec<String>,
         /// Repair what can be repaired: format the code, regenerate the parameter table
         #[arg(long)]
         fix: bool,
@@ -75,9 +77,9 @@ fn perform(arguments: &Arguments) -> anyhow::Result<()> {
             setup::prepare(setup::Purpose::Headless, install)?;
             test::test()
         }
-        Task::Check { fix } => {
+        Task::Check { names, fix } => {
             setup::prepare(setup::Purpose::Headless, install)?;
-            check::check(*fix)
+            check::check(names, *fix)
         }
         Task::Gallery { readme } => {
             setup::prepare(setup::Purpose::Headless, install)?;
