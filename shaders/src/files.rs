@@ -10,6 +10,30 @@ macro_rules! wgsl {
 /// All WGSL files, sorted: name relative to the folder `shaders/`, with `/` on every system, and text.
 pub const FILES: &[(&str, &str)] = wgsl![
     // One line a file, sorted; the tests of this crate name the line to add when one is forgotten.
+    "common/noise.wgsl",
+    "common/phase.wgsl",
+    "common/spectrum.wgsl",
+    "common/sphere.wgsl",
+    "common/tone.wgsl",
+    "frame/develop.wgsl",
+    "frame/frame.wgsl",
+    "frame/meter.wgsl",
+    "sky/atmosphere.wgsl",
+    "sky/column_lookup.wgsl",
+    "sky/column_map.wgsl",
+    "sky/column_table.wgsl",
+    "sky/dome.wgsl",
+    "sky/ground.wgsl",
+    "sky/irradiance_map.wgsl",
+    "sky/irradiance_table.wgsl",
+    "sky/march.wgsl",
+    "sky/quadrature.wgsl",
+    "sky/sky.wgsl",
+    "sky/sky_view_lookup.wgsl",
+    "sky/sky_view_map.wgsl",
+    "sky/sky_view_table.wgsl",
+    "sky/sun_disc.wgsl",
+    "sky/view.wgsl",
 ];
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ params! {
         /// Where the colour is evaluated: at every pixel, or as in the paper at the vertices of a dome.
         mode: SkyMode = SkyMode::PerPixel, "paper section 2; Hillaire 2020";
         /// Rows of the sky table, over the elevation of view. Raise it when a low sun shows rings at the horizon.
-        table_elevations: u32 = 192, ["1", 16..=512, Log], "Hillaire 2020";
+        table_elevations: u32 = 320, ["1", 32..=1024, Log], "Hillaire 2020";
         /// Columns of the sky table, over the angle from the sun's azimuth. Raise it for very hazy air.
         table_azimuths: u32 = 96, ["1", 8..=256, Log], "Hillaire 2020";
         /// Steps of the integral along each ray of view.

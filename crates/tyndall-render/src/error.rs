@@ -1,0 +1,27 @@
+//! What can go wrong while a frame is drawn.
+
+use tyndall_gpu::GpuError;
+use tyndall_scattering::ScatteringError;
+use tyndall_scene::SceneError;
+
+/// Errors of this crate.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// Of the GPU: memory, a lost device, a wrong shader.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// Of the scene: values that do not fit together.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// Of the atmosphere.
+    #[error(transparent)]
+    Scattering(#[from] ScatteringError),
+    /// The target was made for another renderer configuration.
+    #[error("the frame target has {target:?}, the renderer draws {renderer:?}")]
+    Configuration {
+        /// Configuration of the target.
+        target: crate::RendererConfig,
+        /// Configuration of the renderer.
+        renderer: crate::RendererConfig,
+    },
+}

@@ -1,0 +1,69 @@
+//! The camera and film of a frame as the shaders see them. WGSL: `shaders/frame/frame.wgsl`.
+
+use tyndall_scene::camera::{CameraFrame, NEAR_M};
+use tyndall_scene::{ExposureMode, Scene, ToneMap};
+
+use crate::exposure::{expected_ev100, gain_from_ev100};
+use crate::{PictureFormat, RenderError};
+
+/// Uniform structs of this file.
+pub mod gpu_data {
+    /// Twin of `Frame` in `shaders/frame/frame.wgsl`; units and meanings there.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    #[expect(missing_docs, reason = "documented at the WGSL twin")]
+    pub struct Frame {
+        pub right: [f32; 3],
+        pub tan_half_width: f32,
+        pub up: [f32; 3],
+        pub tan_half_height: f32,
+        pub forward: [f32; 3],
+        pub near_m: f32,
+        pub position_m: [f32; 3],
+        pub pre_exposure: f32,
+        pub size_px: [u32; 2],
+        pub tone_map: u32,
+        pub dither: u32,
+        pub auto_exposure: u32,
+        pub manual_gain: f32,
+        pub compensation: f32,
+        pub levels: f32,
+    }
+}
+
+/// The uniform of a scene's camera and film.
+///
+/// # Errors
+/// When the scene has no sun position.
+#[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
+pub fn frame_uniform(scene: &Scene, size_px: [u32; 2], picture: PictureFormat) -> Result<gpu_data::Frame, RenderError> {
+    let camera = CameraFrame::new(&scene.camera);
+    let film = &scene.film;
+    let expected_ev100 = expected_ev100(film, scene.sun_direction()?.elevation_rad);
+    let compensation = film.compensation_ev.exp2();
+    let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
+    Ok(gpu_data::Frame {
+        right: camera.right.as_vec3().to_array(),
+        tan_half_width: (camera.tan_half_view * aspect) as f32,
+        up: camera.up.as_vec3().to_array(),
+        tan_half_height: camera.tan_half_view as f32,
+        forward: camera.forward.as_vec3().to_array(),
+        near_m: NEAR_M as f32,
+        position_m: camera.position.as_vec3().to_array(),
+        pre_exposure: gain_from_ev100(expected_ev100) as f32,
+        size_px,
+        tone_map: match film.tone_map {
+            ToneMap::AgX => 0,
+            ToneMap::Aces => 1,
+            ToneMap::None => 2,
+        },
+        dither: u32::from(film.dither),
+        auto_exposure: u32::from(film.exposure == ExposureMode::Auto),
+        manual_gain: compensation as f32,
+        compensation: compensation as f32,
+        levels: match picture {
+            PictureFormat::Eight => 255.0,
+            PictureFormat::Sixteen => 65_535.0,
+        },
+    })
+}

@@ -1,0 +1,147 @@
+//! The frame: tables, ground and sky, metering, development.
+
+use tyndall_gpu::wgpu::{self, BufferUsages};
+use tyndall_gpu::{Buffer, Gpu, PassTimer, PassTiming};
+use tyndall_scattering::Atmosphere;
+use tyndall_scattering::dome::Dome;
+use tyndall_scene::Scene;
+
+use crate::develop::DevelopRenderer;
+use crate::exposure::ev100_from_gain;
+use crate::frame::{frame_uniform, gpu_data};
+use crate::sky::gpu_data::{Atmosphere as AtmosphereUniform, SkyView};
+use crate::sky::{SkyRenderer, SkyTables};
+use crate::{FrameTarget, RenderError, RendererConfig};
+
+/// Passes that a frame can have: three tables, scene, meter, development.
+const TIMED_PASSES: u32 = 6;
+
+/// Draws scenes. All pipelines are made at once, so that a wrong shader shows at the start.
+#[derive(Debug)]
+pub struct Renderer {
+    config: RendererConfig,
+    frame: Buffer,
+    tables: SkyTables,
+    sky: SkyRenderer,
+    develop: DevelopRenderer,
+    timer: PassTimer,
+    pre_exposure: f32,
+}
+
+impl Renderer {
+    /// Makes all pipelines.
+    ///
+    /// # Errors
+    /// When a shader is wrong, memory does not suffice or the device is lost.
+    pub fn new(gpu: &Gpu, config: RendererConfig) -> Result<Self, RenderError> {
+        let frame_bytes = size_of::<gpu_data::Frame>() as u64;
+        Ok(Self {
+            config,
+            frame: gpu.buffer("frame", frame_bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
+            tables: SkyTables::new(gpu)?,
+            sky: SkyRenderer::new(gpu, config)?,
+            develop: DevelopRenderer::new(gpu, config)?,
+            timer: PassTimer::new(gpu, TIMED_PASSES)?,
+            pre_exposure: 1.0,
+        })
+    }
+
+    /// Records and submits one frame. Tables are rebuilt only when their inputs changed.
+    ///
+    /// # Errors
+    /// When the scene's values do not fit together, the target belongs to another configuration, memory does not
+    /// suffice or the device is lost.
+    pub fn render(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        target: &mut FrameTarget,
+    ) -> Result<wgpu::SubmissionIndex, RenderError> {
+        if target.config != self.config {
+            return Err(RenderError::Configuration { target: target.config, renderer: self.config });
+        }
+        scene.check()?;
+        let frame = frame_uniform(scene, target.size_px(), self.config.picture)?;
+        gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
+        self.pre_exposure = frame.pre_exposure;
+        target.pre_exposure = frame.pre_exposure;
+
+        self.timer.begin_frame();
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        let model = Atmosphere::new(&scene.atmosphere, &scene.ground);
+        let uniforms = (AtmosphereUniform::new(&model, scene.sun.brightness)?, SkyView::new(scene, &model)?);
+        self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms)?;
+        self.record_scene(gpu, &mut encoder, scene, target)?;
+        let data = self.develop.prepare(gpu, &self.frame, target)?;
+        self.develop.record(&mut encoder, &mut self.timer, &data, target);
+        self.timer.resolve(&mut encoder);
+        let submission = gpu.queue.submit([encoder.finish()]);
+        gpu.check()?;
+        Ok(submission)
+    }
+
+    fn record_scene(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &Scene,
+        target: &FrameTarget,
+    ) -> Result<(), RenderError> {
+        let dome = Dome { rings: scene.sky.dome_rings, segments: scene.sky.dome_segments };
+        let sky = self.sky.prepare(gpu, &self.tables, &self.frame, (scene.sky.mode, dome))?;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("sky and ground"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: target.frame.view(),
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: target.depth.view(),
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: self.timer.render_writes("sky and ground"),
+            ..Default::default()
+        });
+        self.sky.draw(&mut pass, &sky);
+        Ok(())
+    }
+
+    /// GPU time of each pass of the last frame; waits for it. Empty where the adapter has no timestamps.
+    ///
+    /// # Errors
+    /// When the device is lost.
+    pub fn timings(&mut self, gpu: &Gpu) -> Result<Vec<PassTiming>, RenderError> {
+        Ok(self.timer.read(gpu)?)
+    }
+
+    /// GPU times of a frame that has come back since the last call; never waits.
+    ///
+    /// # Errors
+    /// When the device is lost.
+    pub fn poll_timings(&mut self, gpu: &Gpu) -> Result<Option<Vec<PassTiming>>, RenderError> {
+        Ok(self.timer.poll(gpu)?)
+    }
+
+    /// Exposure value at ISO 100 of the last frame, metered or manual.
+    ///
+    /// # Errors
+    /// When the device is lost.
+    pub fn read_ev100(&self, gpu: &Gpu) -> Result<f64, RenderError> {
+        let gain = f64::from(self.develop.read_gain(gpu)?) * f64::from(self.pre_exposure);
+        Ok(ev100_from_gain(gain))
+    }
+
+    /// The sky's tables, for tests and plots.
+    #[must_use]
+    pub fn tables(&self) -> &SkyTables {
+        &self.tables
+    }
+
+    /// Forgets the tables, so that the next frame fills them again; for timing.
+    pub fn invalidate_tables(&mut self) {
+        self.tables.invalidate();
+    }
+}

@@ -1,0 +1,146 @@
+//! Uniform structs of the sky and how they follow from a scene.
+
+use tyndall_core::spectrum::{Spectrum, rec709_from_spectrum_matrix};
+use tyndall_scattering::Atmosphere as Model;
+use tyndall_scattering::ScatteringError;
+use tyndall_scattering::atmosphere::{AEROSOL, AIR, OZONE};
+use tyndall_scattering::medium::Profile;
+use tyndall_scattering::params::GroundPattern;
+use tyndall_scattering::phase::Phase;
+use tyndall_scattering::sky_view_table::{ROWS_PER_ROW_BELOW, horizon_elevation};
+use tyndall_scattering::sun_disc::limb_exponents;
+use tyndall_scene::{Scene, SceneError};
+
+/// Twin of `Atmosphere` in `shaders/sky/atmosphere.wgsl`; units and meanings there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "documented at the WGSL twin")]
+pub struct Atmosphere {
+    pub planet_radius_m: f32,
+    pub top_altitude_m: f32,
+    pub air_scale_height_m: f32,
+    pub aerosol_scale_height_m: f32,
+    pub ozone_altitude_m: f32,
+    pub ozone_half_width_m: f32,
+    pub aerosol_g: f32,
+    pub aerosol_phase: u32,
+    pub air_extinction: [f32; 8],
+    pub aerosol_extinction: [f32; 8],
+    pub ozone_extinction: [f32; 8],
+    pub air_source: [f32; 8],
+    pub aerosol_source: [f32; 8],
+    pub solar_irradiance: [f32; 8],
+    pub ground_albedo: [f32; 8],
+    pub red: [f32; 8],
+    pub green: [f32; 8],
+    pub blue: [f32; 8],
+}
+
+/// Twin of `SkyView` in `shaders/sky/view.wgsl`; units and meanings there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "documented at the WGSL twin")]
+pub struct SkyView {
+    pub sun_direction: [f32; 3],
+    pub observer_altitude_m: f32,
+    pub limb_exponents: [f32; 8],
+    pub horizon_elevation: f32,
+    pub sun_angular_radius: f32,
+    pub sun_visible: u32,
+    pub panels: u32,
+    pub table_size: [u32; 2],
+    pub rows_below: u32,
+    pub dome_rings: u32,
+    pub dome_segments: u32,
+    pub ground_pattern: u32,
+    pub ground_tile_m: f32,
+    pub _pad0: u32,
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
+fn narrow(spectrum: &Spectrum) -> [f32; 8] {
+    spectrum.map(|value| value as f32)
+}
+
+impl Atmosphere {
+    /// From the model; sunlight is multiplied by `brightness`.
+    ///
+    /// # Errors
+    /// When the model does not have the eight wavelengths of the shaders.
+    #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
+    pub fn new(model: &Model, brightness: f64) -> Result<Self, ScatteringError> {
+        let coefficients = model.coefficients()?;
+        let [red, green, blue] = rec709_from_spectrum_matrix();
+        let bright = |spectrum: &Spectrum| narrow(&spectrum.map(|value| value * brightness));
+        let (ozone_altitude_m, ozone_half_width_m) = match model.media[OZONE].profile {
+            Profile::Tent { centre_m, half_width_m } => (centre_m, half_width_m),
+            // No atmosphere of this crate has another ozone; a tent far outside would hold nothing.
+            Profile::Exponential { .. } => (-1e9, 1.0),
+        };
+        let (aerosol_phase, aerosol_g) = match model.media[AEROSOL].phase {
+            Phase::CornetteShanks { g } => (0, g),
+            Phase::HenyeyGreenstein { g } => (1, g),
+            Phase::Rayleigh => (0, 0.0),
+        };
+        Ok(Self {
+            planet_radius_m: model.planet_radius_m as f32,
+            top_altitude_m: model.top_altitude_m as f32,
+            air_scale_height_m: model.media[AIR].profile.vertical_column_m() as f32,
+            aerosol_scale_height_m: model.media[AEROSOL].profile.vertical_column_m() as f32,
+            ozone_altitude_m: ozone_altitude_m as f32,
+            ozone_half_width_m: ozone_half_width_m as f32,
+            aerosol_g: aerosol_g as f32,
+            aerosol_phase,
+            air_extinction: narrow(&coefficients.extinction_per_m[AIR]),
+            aerosol_extinction: narrow(&coefficients.extinction_per_m[AEROSOL]),
+            ozone_extinction: narrow(&coefficients.extinction_per_m[OZONE]),
+            air_source: bright(&coefficients.source_w_m3_nm[AIR]),
+            aerosol_source: bright(&coefficients.source_w_m3_nm[AEROSOL]),
+            solar_irradiance: bright(&coefficients.solar_irradiance_w_m2_nm),
+            ground_albedo: narrow(&coefficients.ground_albedo),
+            red: narrow(&red),
+            green: narrow(&green),
+            blue: narrow(&blue),
+        })
+    }
+}
+
+/// Nodes of a panel of the march.
+const STEPS_PER_PANEL: u32 = 4;
+
+impl SkyView {
+    /// From the scene's camera, sun, sky and ground.
+    ///
+    /// # Errors
+    /// When the scene has no sun position.
+    #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
+    pub fn new(scene: &Scene, model: &Model) -> Result<Self, SceneError> {
+        let altitude_m = scene.camera.altitude_m;
+        // Rows in multiples of the share below the horizon, so that both parts keep at least two.
+        let rows_below = (scene.sky.table_elevations / ROWS_PER_ROW_BELOW as u32).max(2);
+        Ok(Self {
+            sun_direction: scene.sun_direction()?.unit().as_vec3().to_array(),
+            observer_altitude_m: altitude_m as f32,
+            limb_exponents: narrow(&limb_exponents(scene.sun.limb_darkening)),
+            horizon_elevation: horizon_elevation(model.planet_radius_m, altitude_m) as f32,
+            sun_angular_radius: scene.sun.angular_radius_deg.to_radians() as f32,
+            sun_visible: u32::from(scene.sun.disc),
+            panels: scene.sky.march_steps / STEPS_PER_PANEL,
+            table_size: [scene.sky.table_azimuths, rows_below * ROWS_PER_ROW_BELOW as u32],
+            rows_below,
+            dome_rings: scene.sky.dome_rings,
+            dome_segments: scene.sky.dome_segments,
+            ground_pattern: u32::from(scene.ground.pattern == GroundPattern::Checker),
+            ground_tile_m: scene.ground.tile_m as f32,
+            _pad0: 0,
+        })
+    }
+
+    /// The part that decides what the sky-view table holds.
+    pub(super) fn table_key(&self) -> [u32; 8] {
+        // Only the sun's height counts: the table's azimuths start at the sun.
+        let [azimuths, rows] = self.table_size;
+        let bits = [self.sun_direction[2], self.observer_altitude_m, self.horizon_elevation].map(f32::to_bits);
+        [bits[0], bits[1], bits[2], azimuths, rows, self.rows_below, self.panels, 0]
+    }
+}

@@ -1,0 +1,193 @@
+//! The sky's tables on the GPU.
+
+use tyndall_gpu::wgpu::{self, BufferUsages, TextureFormat, TextureUsages};
+use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, Shader, Texture, TextureDesc};
+use tyndall_scattering::column_table::COLUMN_TABLE_SIZE;
+use tyndall_scattering::irradiance_table::IRRADIANCE_TABLE_SIZE;
+
+use super::gpu_data::{Atmosphere, SkyView};
+use crate::RenderError;
+
+/// Column, irradiance and sky-view tables, their uniforms and the pipelines that fill them.
+#[derive(Debug)]
+pub struct SkyTables {
+    fill_columns: ComputePipeline,
+    fill_irradiance: ComputePipeline,
+    fill_sky_view: ComputePipeline,
+    pub(super) atmosphere: Buffer,
+    pub(super) view: Buffer,
+    pub(super) columns: Texture,
+    pub(super) irradiance: Texture,
+    pub(super) sky_view_air: Texture,
+    pub(super) sky_view_aerosol: Texture,
+    filled_for: Option<(Atmosphere, [u32; 8])>,
+}
+
+impl SkyTables {
+    /// Pipelines and empty tables.
+    ///
+    /// # Errors
+    /// When a shader is wrong or memory does not suffice.
+    pub fn new(gpu: &Gpu) -> Result<Self, RenderError> {
+        let pipeline = |file: &str, entry: &str| ComputePipeline::new(gpu, &Shader::load(gpu, file)?, entry, &[]);
+        let uniform =
+            |label, bytes: usize| gpu.buffer(label, bytes as u64, BufferUsages::UNIFORM | BufferUsages::COPY_DST);
+        let columns = COLUMN_TABLE_SIZE.map(small);
+        Ok(Self {
+            fill_columns: pipeline("sky/column_table.wgsl", "column_table")?,
+            fill_irradiance: pipeline("sky/irradiance_table.wgsl", "irradiance_table")?,
+            fill_sky_view: pipeline("sky/sky_view_table.wgsl", "sky_view_table")?,
+            atmosphere: uniform("atmosphere", size_of::<Atmosphere>())?,
+            view: uniform("sky view", size_of::<SkyView>())?,
+            columns: table(gpu, "column table", columns)?,
+            irradiance: table(gpu, "irradiance table", [small(IRRADIANCE_TABLE_SIZE), 2])?,
+            sky_view_air: table(gpu, "sky-view table, air", [8, 8])?,
+            sky_view_aerosol: table(gpu, "sky-view table, aerosol", [8, 8])?,
+            filled_for: None,
+        })
+    }
+
+    /// Uploads the uniforms and records the filling of the tables whose inputs changed.
+    ///
+    /// # Errors
+    /// When memory does not suffice for tables of a new size.
+    pub fn update(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: &mut PassTimer,
+        (atmosphere, view): (Atmosphere, SkyView),
+    ) -> Result<(), RenderError> {
+        gpu.queue.write_buffer(&self.atmosphere, 0, bytemuck::bytes_of(&atmosphere));
+        gpu.queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
+        let key = view.table_key();
+        let same_atmosphere = self.filled_for.is_some_and(|(filled, _)| filled == atmosphere);
+        if same_atmosphere && self.filled_for.is_some_and(|(_, filled)| filled == key) {
+            return Ok(());
+        }
+        self.filled_for = None;
+        if !same_atmosphere {
+            self.record_columns(gpu, encoder, timer)?;
+            self.record_irradiance(gpu, encoder, timer)?;
+        }
+        if self.sky_view_air.size_px() != view.table_size {
+            self.sky_view_air = table(gpu, "sky-view table, air", view.table_size)?;
+            self.sky_view_aerosol = table(gpu, "sky-view table, aerosol", view.table_size)?;
+        }
+        self.record_sky_view(gpu, encoder, timer, view.table_size)?;
+        self.filled_for = Some((atmosphere, key));
+        Ok(())
+    }
+
+    /// Forgets what the tables hold, so that the next frame fills them again.
+    pub fn invalidate(&mut self) {
+        self.filled_for = None;
+    }
+
+    fn record_columns(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: &mut PassTimer,
+    ) -> Result<(), RenderError> {
+        let bindings = self.fill_columns.bind(
+            gpu,
+            0,
+            &[("atmosphere", self.atmosphere.as_entire_binding()), ("column_texels", view_of(&self.columns))],
+        )?;
+        let [width, height] = self.columns.size_px();
+        dispatch(encoder, timer, "column table", &self.fill_columns, &bindings, [width, height, 1]);
+        Ok(())
+    }
+
+    fn record_irradiance(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: &mut PassTimer,
+    ) -> Result<(), RenderError> {
+        let bindings = self.fill_irradiance.bind(
+            gpu,
+            0,
+            &[
+                ("atmosphere", self.atmosphere.as_entire_binding()),
+                ("column_table", view_of(&self.columns)),
+                ("irradiance_texels", view_of(&self.irradiance)),
+            ],
+        )?;
+        let suns = small(IRRADIANCE_TABLE_SIZE);
+        let threads = self.fill_irradiance.workgroup_size()[0];
+        dispatch(encoder, timer, "irradiance table", &self.fill_irradiance, &bindings, [suns * threads, 1, 1]);
+        Ok(())
+    }
+
+    fn record_sky_view(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: &mut PassTimer,
+        [width, height]: [u32; 2],
+    ) -> Result<(), RenderError> {
+        let bindings = self.fill_sky_view.bind(
+            gpu,
+            0,
+            &[
+                ("atmosphere", self.atmosphere.as_entire_binding()),
+                ("column_table", view_of(&self.columns)),
+                ("sky_view", self.view.as_entire_binding()),
+                ("sky_view_air_texels", view_of(&self.sky_view_air)),
+                ("sky_view_aerosol_texels", view_of(&self.sky_view_aerosol)),
+            ],
+        )?;
+        dispatch(encoder, timer, "sky-view table", &self.fill_sky_view, &bindings, [width, height, 1]);
+        Ok(())
+    }
+
+    /// The column table's texture, for tests.
+    #[must_use]
+    pub fn columns(&self) -> &Texture {
+        &self.columns
+    }
+
+    /// The irradiance table's texture, for tests.
+    #[must_use]
+    pub fn irradiance(&self) -> &Texture {
+        &self.irradiance
+    }
+
+    /// The sky-view table's textures, air and aerosol, for tests.
+    #[must_use]
+    pub fn sky_view(&self) -> [&Texture; 2] {
+        [&self.sky_view_air, &self.sky_view_aerosol]
+    }
+}
+
+fn table(gpu: &Gpu, label: &str, size_px: [u32; 2]) -> Result<Texture, RenderError> {
+    let usage = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+    Ok(gpu.texture(&TextureDesc::new_2d(label, size_px, TextureFormat::Rgba32Float, usage))?)
+}
+
+pub(super) fn view_of(texture: &Texture) -> wgpu::BindingResource<'_> {
+    wgpu::BindingResource::TextureView(texture.view())
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "sizes of tables")]
+fn small(count: usize) -> u32 {
+    count as u32
+}
+
+fn dispatch(
+    encoder: &mut wgpu::CommandEncoder,
+    timer: &mut PassTimer,
+    name: &'static str,
+    pipeline: &ComputePipeline,
+    bindings: &wgpu::BindGroup,
+    invocations: [u32; 3],
+) {
+    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+        label: Some(name),
+        timestamp_writes: timer.compute_writes(name),
+    });
+    pass.set_bind_group(0, bindings, &[]);
+    pipeline.dispatch(&mut pass, invocations);
+}

@@ -1,0 +1,48 @@
+// The camera of a frame. Image-plane coordinates: (0, 0) in the centre, x right, y up, +-1 at the edges.
+// Uniform twin: tyndall_render::frame::gpu_data::Frame.
+
+struct Frame {
+    right: vec3<f32>,          // 1, east-north-up
+    tan_half_width: f32,       // 1, tangent of half the horizontal field of view
+    up: vec3<f32>,             // 1
+    tan_half_height: f32,      // 1
+    forward: vec3<f32>,        // 1
+    near_m: f32,               // reversed depth = near / planar distance
+    position_m: vec3<f32>,     // east, north, altitude
+    pre_exposure: f32,         // 1/(cd/m^2), frame value per radiance
+    size_px: vec2<u32>,
+    tone_map: u32,             // 0 AgX, 1 ACES, 2 none
+    dither: u32,               // 1 on
+    auto_exposure: u32,        // 1 when the meter decides
+    manual_gain: f32,          // 1, exposed value per frame value when it does not
+    compensation: f32,         // 1, factor on the metered exposure
+    levels: f32,               // steps of the output per unit: 255, or 65535
+}
+@group(1) @binding(0) var<uniform> frame: Frame;
+
+/// A triangle that covers the screen.
+fn frame_triangle(index: u32) -> vec4<f32> {
+    return vec4<f32>(f32((index << 1u) & 2u) * 2.0 - 1.0, f32(index & 2u) * 2.0 - 1.0, 0.0, 1.0);
+}
+
+/// Image-plane coordinates of a fragment position.
+fn frame_plane(position: vec4<f32>) -> vec2<f32> {
+    let unit = position.xy / vec2<f32>(frame.size_px) * 2.0 - 1.0;
+    return vec2<f32>(unit.x, -unit.y);
+}
+
+/// Width and height of a pixel in image-plane coordinates.
+fn frame_pixel_size() -> vec2<f32> {
+    return 2.0 / vec2<f32>(frame.size_px);
+}
+
+/// World direction of a point of the image plane.
+fn frame_direction(plane: vec2<f32>) -> vec3<f32> {
+    return normalize(frame.forward + plane.x * frame.tan_half_width * frame.right + plane.y * frame.tan_half_height * frame.up);
+}
+
+/// Largest angle that the pixel at a point of the image plane covers [rad]: its diagonal at the centre, where pixels are
+/// widest.
+fn frame_pixel_angle(plane: vec2<f32>) -> f32 {
+    return length(frame_pixel_size() * vec2<f32>(frame.tan_half_width, frame.tan_half_height));
+}

@@ -1,0 +1,43 @@
+// Fills the column table: paper eq. (2) without the wavelength. One texel per invocation, 2 x 12 panels of four Gauss
+// nodes. Stored are ln(column / density at the observer) for air and aerosol, and the column of ozone [m].
+// Exact integral and table in f64: tyndall_scattering::{optical_length, column_table}.
+// @import sky/column_map.wgsl
+// @import sky/quadrature.wgsl
+
+@group(0) @binding(1) var column_texels: texture_storage_2d<rgba32float, write>;
+
+const COLUMN_PANELS: u32 = 12u;
+
+/// Densities at distance t along a ray, those of air and aerosol relative to the ones at the observer. The exponent ends
+/// where f32 does; so thin a medium contributes nothing.
+fn column_density(h: f32, mu: f32, t: f32) -> vec3<f32> {
+    let h_t = altitude_along(atmosphere.planet_radius_m, h, mu, t);
+    let scale_heights = vec2<f32>(atmosphere.air_scale_height_m, atmosphere.aerosol_scale_height_m);
+    return vec3<f32>(exp(min((h - h_t) / scale_heights, vec2<f32>(80.0))), atmosphere_density(h_t).z);
+}
+
+/// Columns from distance `from_m` over a signed `span_m`, nodes quadratically dense at `from_m`.
+fn column_side(h: f32, mu: f32, from_m: f32, span_m: f32) -> vec3<f32> {
+    var sum = vec3<f32>(0.0);
+    for (var panel = 0u; panel < COLUMN_PANELS; panel++) { // loops: COLUMN_PANELS
+        for (var node = 0u; node < 4u; node++) { // loops: 4
+            let x = (f32(panel) + QUADRATURE_NODES[node]) / f32(COLUMN_PANELS);
+            let weight = QUADRATURE_WEIGHTS[node] * 2.0 * x / f32(COLUMN_PANELS);
+            sum += column_density(h, mu, from_m + span_m * x * x) * weight;
+        }
+    }
+    return sum * abs(span_m);
+}
+
+@compute @workgroup_size(8, 8, 1)
+fn column_table(@builtin(global_invocation_id) id: vec3<u32>) {
+    if (any(id.xy >= COLUMN_TABLE_SIZE)) { return; }
+    let place = column_map_inverse(vec2<f32>(id.xy) / vec2<f32>(COLUMN_TABLE_SIZE - 1u));
+    let radius = atmosphere.planet_radius_m;
+    let length = distance_to_top(radius, atmosphere.top_altitude_m, place.x, place.y);
+    let lowest = clamp(-(radius + place.x) * place.y, 0.0, length);
+    let columns = column_side(place.x, place.y, lowest, -lowest) + column_side(place.x, place.y, lowest, length - lowest);
+    // The floor of 1e-6 m is what a texel at the very top holds.
+    let relative = log(max(columns.xy, vec2<f32>(1e-6)));
+    textureStore(column_texels, id.xy, vec4<f32>(relative, columns.z, 0.0));
+}

@@ -1,0 +1,83 @@
+// The ground: a Lambertian sphere lit by the sun and the sky, seen through the air in front of it. Writes depth.
+// @import frame/frame.wgsl
+// @import sky/column_lookup.wgsl
+// @import sky/irradiance_map.wgsl
+// @import sky/sky_view_lookup.wgsl
+// @import sky/view.wgsl
+
+@group(0) @binding(8) var irradiance_table: texture_2d<f32>;
+
+struct GroundFragment {
+    @location(0) radiance: vec4<f32>, // cd/m^2 times pre-exposure
+    @builtin(frag_depth) depth: f32,  // reversed
+}
+
+/// Irradiance of the sky [W/m^2/nm] for a sun of zenith cosine mu_sun.
+fn ground_sky_irradiance(mu_sun: f32) -> Spectrum {
+    let position = irradiance_map(mu_sun) * f32(IRRADIANCE_TABLE_SIZE - 1u);
+    let first = min(u32(position), IRRADIANCE_TABLE_SIZE - 2u);
+    let fraction = position - f32(first);
+    let lo = mix(textureLoad(irradiance_table, vec2<u32>(first, 0u), 0), textureLoad(irradiance_table, vec2<u32>(first + 1u, 0u), 0), fraction);
+    let hi = mix(textureLoad(irradiance_table, vec2<u32>(first, 1u), 0), textureLoad(irradiance_table, vec2<u32>(first + 1u, 1u), 0), fraction);
+    return Spectrum(lo, hi);
+}
+
+/// Irradiance of the sun [W/m^2/nm] on the ground; fades while the disc sinks below the horizon.
+fn ground_sun_irradiance(mu_sun: f32) -> Spectrum {
+    let radius = sky_view.sun_angular_radius;
+    let visible = clamp(0.5 + 0.5 * mu_sun / sin(radius), 0.0, 1.0);
+    let light = spectrum_mul(atmosphere.solar_irradiance, atmosphere_transmittance(columns_to_top(0.0, max(mu_sun, 0.0))));
+    // Half the sunken disc's light still grazes: the mean cosine of the visible part is near its half width.
+    return spectrum_scale(light, visible * max(mu_sun, 0.5 * sin(radius) * visible));
+}
+
+/// Reflection relative to the mean at a point [m] seen under a pixel of `footprint_m`; fades where squares are smaller.
+fn ground_pattern(point: vec2<f32>, footprint_m: f32) -> f32 {
+    if (sky_view.ground_pattern == 0u) {
+        return 1.0;
+    }
+    let tile = point / sky_view.ground_tile_m;
+    // Smooth squares: steps of one footprint's width.
+    let sharpness = max(footprint_m / sky_view.ground_tile_m, 1e-3);
+    let wave = clamp(sin(tile * SKY_PI) / sharpness, vec2<f32>(-1.0), vec2<f32>(1.0));
+    return 1.0 + 0.35 * wave.x * wave.y * (1.0 - smoothstep(0.25, 1.0, sharpness));
+}
+
+/// Columns [m] between the observer and the ground in a direction.
+fn ground_view_columns(mu: f32, t: f32) -> vec3<f32> {
+    let radius = atmosphere.planet_radius_m;
+    let h = sky_view.observer_altitude_m;
+    let mu_ground = mu_along(radius, h, mu, 1.0, t, 0.0);
+    // Upwards from the ground, less what lies behind the observer.
+    let whole = columns_to_top(0.0, max(-mu_ground, 0.0));
+    if (h >= atmosphere.top_altitude_m) {
+        return whole;
+    }
+    return max(whole - columns_to_top(h, -mu), vec3<f32>(0.0));
+}
+
+@vertex
+fn ground_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+    return frame_triangle(index);
+}
+
+@fragment
+fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
+    let plane = frame_plane(position);
+    let direction = frame_direction(plane);
+    let radius = atmosphere.planet_radius_m;
+    let h = sky_view.observer_altitude_m;
+    let t = distance_to_ground(radius, h, direction.z);
+    if (t < 0.0) {
+        discard;
+    }
+    let nu = sky_sun_cosine(direction);
+    let mu_sun = mu_along(radius, h, sky_view.sun_direction.z, nu, t, 0.0);
+    let footprint_m = frame_pixel_angle(plane) * t / max(-direction.z, 1e-4);
+    let light = spectrum_add(ground_sun_irradiance(mu_sun), ground_sky_irradiance(mu_sun));
+    let reflected = spectrum_scale(spectrum_mul(atmosphere.ground_albedo, light), ground_pattern(frame.position_m.xy + t * direction.xy, footprint_m) / SKY_PI);
+    let seen = spectrum_mul(reflected, atmosphere_transmittance(ground_view_columns(direction.z, t)));
+    let radiance = atmosphere_rec709(seen) + sky_view_radiance(sky_view_angles(direction), nu);
+    let planar_m = max(t * dot(direction, frame.forward), frame.near_m);
+    return GroundFragment(vec4<f32>(radiance * frame.pre_exposure, 1.0), frame.near_m / planar_m);
+}

@@ -1,0 +1,17 @@
+// The sky per pixel: the table with exact phase functions, and the sun's disc. Drawn at infinite depth, behind everything.
+// @import frame/frame.wgsl
+// @import sky/sky_view_lookup.wgsl
+// @import sky/sun_disc.wgsl
+
+@vertex
+fn sky_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+    return frame_triangle(index);
+}
+
+@fragment
+fn sky_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let plane = frame_plane(position);
+    let direction = frame_direction(plane);
+    let radiance = sky_view_radiance(sky_view_angles(direction), sky_sun_cosine(direction));
+    return vec4<f32>((radiance + sun_disc_radiance(plane)) * frame.pre_exposure, 1.0);
+}

@@ -1,0 +1,63 @@
+// The sun's disc, by area: a pixel gets the mean over a grid of samples, so that the disc's energy is right at any size.
+// Distances on the disc are chords, because acos is off by 3 % of the sun's radius on some adapters.
+// Formulas: tyndall_scattering::sun_disc.
+// @import frame/frame.wgsl
+// @import sky/column_lookup.wgsl
+// @import sky/view.wgsl
+
+const SUN_SAMPLES_MAX: u32 = 32u;
+const SUN_SAMPLES_ACROSS_DISC: f32 = 96.0;
+
+/// Columns [m] from the observer to the top of the atmosphere in a direction that misses the ground.
+fn sun_columns(direction: vec3<f32>) -> vec3<f32> {
+    let radius = atmosphere.planet_radius_m;
+    let top = atmosphere.top_altitude_m;
+    let h = sky_view.observer_altitude_m;
+    let entry = sky_entry_distance(direction.z);
+    if (entry < 0.0) {
+        return vec3<f32>(0.0);
+    }
+    let inside = min(h, top);
+    let mu = select(mu_along(radius, h, direction.z, 1.0, entry, top), direction.z, entry == 0.0);
+    return columns_to_top(inside, max(mu, horizon_mu(radius, inside)));
+}
+
+/// Relative radiance of the disc at a squared chord over the squared radius, 0 outside.
+fn sun_limb(share_squared: f32) -> Spectrum {
+    if (share_squared >= 1.0) {
+        return Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
+    }
+    // mu^a with mu^2 = 1 - share^2.
+    let half_log = 0.5 * log2(max(1.0 - share_squared, 1e-12));
+    return Spectrum(exp2(half_log * sky_view.limb_exponents.lo), exp2(half_log * sky_view.limb_exponents.hi));
+}
+
+/// Radiance [cd/m^2] of the disc in a pixel whose centre has the image-plane coordinates `plane`.
+fn sun_disc_radiance(plane: vec2<f32>) -> vec3<f32> {
+    let centre = frame_direction(plane);
+    let pixel = frame_pixel_angle(plane);
+    let radius = sky_view.sun_angular_radius;
+    let reach = 2.0 * sin(0.5 * radius) + pixel;
+    if (sky_view.sun_visible == 0u || distance(centre, sky_view.sun_direction) > reach) {
+        return vec3<f32>(0.0);
+    }
+    let samples = clamp(u32(ceil(SUN_SAMPLES_ACROSS_DISC * pixel / (2.0 * radius))), 2u, SUN_SAMPLES_MAX);
+    let chord = 2.0 * sin(0.5 * radius);
+    var sum = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
+    for (var y = 0u; y < samples; y++) { // loops: SUN_SAMPLES_MAX
+        for (var x = 0u; x < samples; x++) { // loops: SUN_SAMPLES_MAX
+            let offset = (vec2<f32>(f32(x), f32(y)) + 0.5) / f32(samples) - 0.5;
+            let direction = frame_direction(plane + offset * frame_pixel_size());
+            let apart = direction - sky_view.sun_direction;
+            let above = direction.z >= sin(sky_view.horizon_elevation);
+            let share_squared = select(1.0, dot(apart, apart) / (chord * chord), above);
+            sum = spectrum_add(sum, sun_limb(share_squared));
+        }
+    }
+    // Irradiance to central radiance: (a + 2) / (2 pi sin^2 r).
+    let normal = spectrum_add(sky_view.limb_exponents, Spectrum(vec4<f32>(2.0), vec4<f32>(2.0)));
+    let sine = sin(radius);
+    let scale = 1.0 / (2.0 * SKY_PI * sine * sine * f32(samples * samples));
+    let light = spectrum_mul(spectrum_mul(sum, normal), spectrum_mul(atmosphere.solar_irradiance, atmosphere_transmittance(sun_columns(centre))));
+    return atmosphere_rec709(spectrum_scale(light, scale));
+}
