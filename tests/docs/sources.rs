@@ -1,7 +1,7 @@
 //! Looks up Rust paths, WGSL functions and tests in the source text.
 //!
-//! Text is enough: the compiler checks everything else, and a look-up takes no build. A path is the one of its definition;
-//! re-exports are not followed.
+//! Text is enough: the compiler checks everything else, and a look-up takes no build. A path is the one of its
+//! definition; re-exports are not followed.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -3,7 +3,8 @@
 //! The bytes go to `.NAME.PID.part` in the same folder, are flushed to the disk, and are then renamed; the rename is
 //! flushed too. Two processes that write the same file are harmless: the last one wins. The temporary file is locked
 //! while its writer lives, so that the next writer of the same name can tell the leftover of a killed process (removed)
-//! from a file in the making (kept), also on another machine that shares the folder and when process numbers are reused.
+//! from a file in the making (kept), also on another machine that shares the folder and when process numbers are
+//! reused.
 //!
 //! Not done: keeping the permissions of a replaced file.
 
@@ -19,8 +20,8 @@ use crate::{Destination, IoError};
 /// Names that are tried for a temporary file; machines that share a folder may have processes of the same number.
 const MAX_ATTEMPTS: u32 = 100;
 
-/// Number of the next temporary file of this process. No name is used twice: between finding that the writer of a name is
-/// gone and removing the file, another thread could have taken the name again.
+/// Number of the next temporary file of this process. No name is used twice: between finding that the writer of a name
+/// is gone and removing the file, another thread could have taken the name again.
 static NEXT_SERIAL: AtomicU32 = AtomicU32::new(0);
 
 /// The temporary file: readable, writable, seekable, buffered. Fails every write once the destination is cancelled.

@@ -1,7 +1,7 @@
 //! Puts the attributes of an EXR header into alphabetical order.
 //!
-//! The encoder keeps custom attributes in a hash map with a random seed, so that the same picture gives other bytes each
-//! time. Sorted, as the reference library writes them, equal pictures are equal files.
+//! The encoder keeps custom attributes in a hash map with a random seed, so that the same picture gives other bytes
+//! each time. Sorted, as the reference library writes them, equal pictures are equal files.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 

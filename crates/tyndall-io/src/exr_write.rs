@@ -1,8 +1,8 @@
 //! Writes a picture as `OpenEXR`: one part, scanlines, channels R G B A and Z.
 //!
-//! Values are scene-linear Rec.709 in cd/m^2 (`whiteLuminance` 1), alpha associated, Z the planar view distance in metres as
-//! 32-bit float. The file holds no NaN and no infinity. Equal pictures give equal bytes. 1920 x 1080 with ZIPS takes
-//! half a second on two cores that do other things too.
+//! Values are scene-linear Rec.709 in cd/m^2 (`whiteLuminance` 1), alpha associated, Z the planar view distance in
+//! metres as 32-bit float. The file holds no NaN and no infinity. Equal pictures give equal bytes. 1920 x 1080 with
+//! ZIPS takes half a second on two cores that do other things too.
 
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer, LineOrder, WritableImage as _, f16,
@@ -16,7 +16,7 @@ use crate::exr_order::sort_attributes;
 use crate::picture::{check_extra, check_length};
 use crate::{Destination, IoError, Picture, PictureMetadata, atomic};
 
-/// Depth of a pixel that shows the sky [m]. Not infinity: viewers scale depth by its maximum.
+/// Depth of a pixel that shows the sky, in metres. Not infinity: viewers scale depth by its maximum.
 pub const SKY_DEPTH_M: f32 = 1e10;
 
 /// Names of the colour channels in the order of [`Picture::rgba`].

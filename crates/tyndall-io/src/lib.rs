@@ -5,8 +5,8 @@
 //! - [`read_picture_header`], [`is_finished`]: what a file says about itself, without decoding its pixels.
 //! - [`atomic`]: a file appears under its name complete or not at all.
 //!
-//! Nothing here knows a GPU; a simulation's user has the writers without one. Not done: tiles, several parts, deep data,
-//! reading the pixels of PNG.
+//! Nothing here knows a GPU; a simulation's user has the writers without one. Not done: tiles, several parts, deep
+//! data, reading the pixels of PNG.
 
 pub mod atomic;
 mod destination;

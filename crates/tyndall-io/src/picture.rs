@@ -2,7 +2,7 @@
 
 use crate::IoError;
 
-/// Longest side that is written or read [pixels]. Twice the largest picture of a scene, for panoramas.
+/// Longest side that is written or read, in pixels. Twice the largest picture of a scene, for panoramas.
 pub const MAX_SIDE_PX: u32 = 32_768;
 
 /// Most pixels that are written or read: a square picture of 16,384 x 16,384, 4 GiB of colour in memory.
@@ -15,7 +15,7 @@ pub struct Picture {
     pub size_px: [u32; 2],
     /// Red, green, blue [cd/m^2] and alpha, row by row.
     pub rgba: Vec<[f32; 4]>,
-    /// Planar view distance of each pixel [m]; [`SKY_DEPTH_M`](crate::SKY_DEPTH_M) where nothing stands.
+    /// Planar view distance of each pixel in metres; [`SKY_DEPTH_M`](crate::SKY_DEPTH_M) where nothing stands.
     pub depth_m: Option<Vec<f32>>,
 }
 
@@ -28,16 +28,16 @@ pub struct PictureMetadata {
     pub scene_hash: String,
     /// Title of the scene.
     pub title: String,
-    /// World to camera in `OpenEXR`'s convention: row vectors, the translation in elements 12 to 14, camera space with x to
-    /// the right, y up, z forward (left-handed) [m].
+    /// World to camera in `OpenEXR`'s convention: row vectors, the translation in elements 12 to 14, camera space in
+    /// metres with x to the right, y up, z forward (left-handed).
     pub world_to_camera: [f32; 16],
-    /// Distance of the near plane [m].
+    /// Distance of the near plane in metres.
     pub near_m: f32,
-    /// Vertical field of view [rad].
+    /// Vertical field of view in radians.
     pub field_of_view_rad: f32,
-    /// Latitude of the place, north positive [degrees].
+    /// Latitude of the place in degrees, north positive.
     pub latitude_deg: Option<f64>,
-    /// Longitude of the place, east positive [degrees].
+    /// Longitude of the place in degrees, east positive.
     pub longitude_deg: Option<f64>,
     /// Exposure at which the picture was looked at, as EV at ISO 100. The pixels of an EXR are not scaled by it.
     pub exposure_ev100: f64,

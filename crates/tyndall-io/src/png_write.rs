@@ -1,7 +1,7 @@
 //! Writes display-referred pictures as PNG with 8 or 16 bits: sRGB, straight alpha, row 0 on top.
 //!
-//! Chunks: sRGB, then texts Software, Title, Comment and `tyndall/sceneHash`. The pixels are packed row by row, so that a
-//! cancelled write stops within a row and no second copy of the picture is made.
+//! Chunks: sRGB, then texts Software, Title, Comment and `tyndall/sceneHash`. The pixels are packed row by row, so that
+//! a cancelled write stops within a row and no second copy of the picture is made.
 
 use std::io::{self, Write as _};
 
