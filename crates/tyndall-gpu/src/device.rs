@@ -144,6 +144,7 @@ impl Gpu {
     /// # Errors
     /// When the device is lost, or with the first error since the last call that no scope caught.
     pub fn check(&self) -> Result<(), GpuError> {
+        self.poll()?;
         self.health.check()
     }
 
@@ -161,7 +162,7 @@ impl Gpu {
             pollster::block_on(internal.pop()),
             pollster::block_on(memory.pop()),
         ];
-        self.health.check_lost()?;
+        self.poll()?;
         match errors.into_iter().flatten().next() {
             None => Ok(value),
             Some(wgpu::Error::OutOfMemory { .. }) => Err(GpuError::OutOfMemory { what: what.to_owned() }),
@@ -181,19 +182,27 @@ impl Gpu {
 
     /// Waits for one slice of time; whether the submission, or without one everything submitted, has finished.
     pub(crate) fn wait_slice(&self, submission: Option<&wgpu::SubmissionIndex>) -> Result<bool, GpuError> {
-        let slice = wgpu::PollType::Wait { submission_index: submission.cloned(), timeout: Some(WAIT_SLICE) };
-        let waited = self.device.poll(slice);
+        let waited = self.poll_for_slice(submission);
         self.health.check_lost()?;
         match waited {
             Ok(_) => Ok(true),
             Err(wgpu::PollError::Timeout) => Ok(false),
-            Err(error) => {
+            Err(error @ wgpu::PollError::WrongSubmissionIndex(..)) => {
+                // A device destroyed while it worked refuses submissions in silence and tells of the loss only when
+                // the earlier work has ended.
+                while matches!(self.poll_for_slice(None), Err(wgpu::PollError::Timeout)) {}
+                self.health.check_lost()?;
                 Err(GpuError::Validation { what: "waiting for the GPU".to_owned(), message: error.to_string() })
             }
         }
     }
 
-    /// Runs the callbacks that are due, without waiting.
+    fn poll_for_slice(&self, submission: Option<&wgpu::SubmissionIndex>) -> Result<wgpu::PollStatus, wgpu::PollError> {
+        let timeout = Some(WAIT_SLICE);
+        self.device.poll(wgpu::PollType::Wait { submission_index: submission.cloned(), timeout })
+    }
+
+    /// Runs the callbacks that are due, without waiting. wgpu tells of a loss only here.
     ///
     /// # Errors
     /// When the device is lost.
@@ -206,7 +215,7 @@ impl Gpu {
     /// Lets a planted fault strike before a read-back.
     pub(crate) fn before_readback(&self) -> Result<(), GpuError> {
         fault::before_readback(&self.device);
-        self.health.check_lost()
+        self.poll()
     }
 }
 

@@ -68,7 +68,10 @@ fn parse(composed: &Composed) -> Result<(naga::Module, naga::valid::ModuleInfo),
     let mut validator = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty());
     let info = validator.validate(&module).map_err(|error| {
         let causes = with_causes(error.as_inner());
-        shader_error(composed, error.location(source), &joined(causes.iter().map(String::as_str)))
+        // The spans go from the whole function down to the expression; the shortest is the place.
+        let spans = error.spans().map(|(span, _)| span).filter(|span| span.is_defined());
+        let place = spans.map(|span| span.location(source)).min_by_key(|place| place.length);
+        shader_error(composed, place, &joined(causes.iter().map(String::as_str)))
     })?;
     Ok((module, info))
 }
