@@ -81,7 +81,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("docs")).unwrap();
         fs::write(folder.path().join("picture.png"), "").unwrap();
-        let text = "[good](../picture.png) and [dead](gone.md#part)\n\n[name]: none.md\n<img src=\"no.png\" width=\"9\">\n\
+        let text = "[good](../picture.png) and [dead](gone.md#part)\n\n[name]: none.md\n\
+                    <img src=\"no.png\" width=\"9\">\n\
                     ```\n[code](in-code.md)\n```\n`[code](in-code.md)` [far](https://example.org/x) [here](#part)\n\
                     ![titled](../picture.png \"with a title\")\n";
         fs::write(folder.path().join("docs/a.md"), text).unwrap();

@@ -9,7 +9,10 @@ use crate::picture::{MAX_PIXELS, MAX_SIDE_PX};
 #[derive(Debug, thiserror::Error)]
 pub enum IoError {
     /// The folder of the destination does not exist.
-    #[error("cannot write {}: the folder {} does not exist; create it or choose another", .path.display(), .folder.display())]
+    #[error(
+        "cannot write {}: the folder {} does not exist; create it or choose another",
+        .path.display(), .folder.display()
+    )]
     MissingFolder {
         /// The destination.
         path: PathBuf,
@@ -37,7 +40,10 @@ pub enum IoError {
         path: PathBuf,
     },
     /// The folder is read-only for this user, or the whole file system is.
-    #[error("cannot write {}: no permission to write in {}; change its rights or choose another folder", .path.display(), .folder.display())]
+    #[error(
+        "cannot write {}: no permission to write in {}; change its rights or choose another folder",
+        .path.display(), .folder.display()
+    )]
     NotWritable {
         /// The destination.
         path: PathBuf,
@@ -81,7 +87,10 @@ pub enum IoError {
         problem: String,
     },
     /// A pixel is NaN or infinite; such values spread through every filter of every other program.
-    #[error("cannot write {}: channel {channel} of pixel ({x_px}, {y_px}) is {value}; the first of {count} such values", .path.display())]
+    #[error(
+        "cannot write {}: channel {channel} of pixel ({x_px}, {y_px}) is {value}; the first of {count} such values",
+        .path.display()
+    )]
     NotFinite {
         /// The destination.
         path: PathBuf,

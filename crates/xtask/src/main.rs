@@ -37,7 +37,11 @@ enum Task {
         arguments: Vec<String>,
     },
     /// Run all tests, on the software adapter where there is no GPU
-    Test,
+    Test {
+        /// Arguments for `cargo test` in place of `--workspace`, such as `-p tyndall-io`
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
     /// Run every other check that CI makes
     Check {
         /// Make only these checks, by their names as printed
@@ -68,14 +72,15 @@ fn perform(arguments: &Arguments) -> anyhow::Result<()> {
     let install = !arguments.no_install;
     match &arguments.task {
         Task::Setup => {
-            setup::prepare(setup::Purpose::Window, install)?;
-            println!("set-up: this machine has what Tyndall needs from the system");
+            if setup::prepare(setup::Purpose::Window, install)? {
+                println!("set-up: this machine has what Tyndall needs from the system");
+            }
             Ok(())
         }
         Task::Run { arguments } => run::run(arguments, install),
-        Task::Test => {
+        Task::Test { arguments } => {
             setup::prepare(setup::Purpose::Headless, install)?;
-            test::test()
+            test::test(arguments)
         }
         Task::Check { names, fix } => {
             setup::prepare(setup::Purpose::Headless, install)?;

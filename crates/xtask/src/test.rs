@@ -17,11 +17,14 @@ struct Count {
     ignored: usize,
 }
 
-/// Runs all tests, those after a failure too.
-pub(crate) fn test() -> Result<()> {
+/// Runs all tests, or those that the arguments choose; those after a failure too.
+pub(crate) fn test(arguments: &[String]) -> Result<()> {
     let start = Instant::now();
-    let mut command = shell::cargo(["test", "--workspace", "--locked", "--no-fail-fast"]);
-    command.envs(setup::software_adapter_variables()).stdout(Stdio::piped());
+    let mut command = shell::cargo(["test", "--locked", "--no-fail-fast"]);
+    if arguments.is_empty() {
+        command.arg("--workspace");
+    }
+    command.args(arguments).envs(setup::software_adapter_variables()).stdout(Stdio::piped());
     println!("$ {}", shell::shown(&command));
     let mut child = command.spawn().context("cannot start cargo")?;
     let output = child.stdout.take().context("the output of cargo was asked for")?;

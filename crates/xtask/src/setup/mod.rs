@@ -8,7 +8,7 @@ mod install;
 mod machine;
 mod requirements;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 
 use machine::{Family, Machine};
 
@@ -21,34 +21,33 @@ pub(crate) enum Purpose {
     Window,
 }
 
-/// Makes sure that the machine has what `purpose` needs. Prints nothing when it has.
-pub(crate) fn prepare(purpose: Purpose, install: bool) -> Result<()> {
+/// Makes sure that the machine has what `purpose` needs, or says how to get it; gives back whether it has now. Prints
+/// nothing when nothing is missing.
+pub(crate) fn prepare(purpose: Purpose, install: bool) -> Result<bool> {
     let machine = Machine::this();
     let packages = requirements::missing(&machine, purpose);
     if packages.is_empty() {
-        return Ok(());
+        return Ok(true);
     }
     let list = packages.join(" ");
     println!("set-up: system packages are missing: {list}");
     match machine.family {
-        Family::Debian if install => install::with_apt(&packages),
+        Family::Debian if install => {
+            install::with_apt(&packages)?;
+            let remaining = requirements::missing(&Machine::this(), purpose);
+            ensure!(remaining.is_empty(), "{} still cannot be found after its installation", remaining.join(" "));
+            return Ok(true);
+        }
         Family::Debian => {
             println!("set-up: install them with `apt-get install --no-install-recommends {list}` as root");
-            Ok(())
         }
-        Family::Fedora => {
-            println!("set-up: install them with `sudo dnf install {list}`");
-            Ok(())
-        }
-        Family::Arch => {
-            println!("set-up: install them with `sudo pacman -S --needed {list}`");
-            Ok(())
-        }
+        Family::Fedora => println!("set-up: install them with `sudo dnf install {list}`"),
+        Family::Arch => println!("set-up: install them with `sudo pacman -S --needed {list}`"),
         Family::OtherLinux | Family::NotLinux => {
             println!("set-up: these are Debian's names; install what your system calls them");
-            Ok(())
         }
     }
+    Ok(false)
 }
 
 /// Whether a window can be opened on this machine.
