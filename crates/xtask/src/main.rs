@@ -92,3 +92,20 @@ fn perform(arguments: &Arguments) -> anyhow::Result<()> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_switch_for_packages_works_before_and_after_the_task_and_is_not_handed_on() {
+        for line in [["xtask", "--no-install", "run"], ["xtask", "run", "--no-install"]] {
+            let parsed = Arguments::try_parse_from(line).unwrap();
+            assert!(parsed.no_install, "{line:?}");
+            assert!(matches!(parsed.task, Task::Run { arguments } if arguments.is_empty()), "{line:?}");
+        }
+        let parsed = Arguments::try_parse_from(["xtask", "test", "-p", "tyndall-io", "--", "--nocapture"]).unwrap();
+        let expected = ["-p", "tyndall-io", "--", "--nocapture"];
+        assert!(matches!(parsed.task, Task::Test { arguments } if arguments == expected), "the rest goes to cargo");
+    }
+}
