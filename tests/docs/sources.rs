@@ -35,7 +35,8 @@ impl Sources {
     /// Whether `path#function` or `path` exists in the tree.
     pub(crate) fn find_in_file(&self, reference: &str) -> Result<(), String> {
         let (path, function) = reference.split_once('#').unwrap_or((reference, ""));
-        let text = fs::read_to_string(self.root.join(path)).map_err(|_| format!("there is no file {path}"))?;
+        let text =
+            fs::read_to_string(self.root.join(path)).map_err(|_unreadable| format!("there is no file {path}"))?;
         if function.is_empty() || declares(&words(&text), function) {
             return Ok(());
         }
