@@ -1,0 +1,69 @@
+//! The command line as a whole.
+
+use clap::{ArgAction, Parser};
+
+use crate::Exit;
+use crate::doctor::DoctorArguments;
+use crate::params::ParamsArguments;
+use crate::presets::PresetsArguments;
+use crate::render::RenderArguments;
+
+const ABOUT: &str = "Renders skies from scene files, without a window and without a GPU if need be.";
+
+const EXAMPLES: &str = "\
+Examples:
+  tyndall render preset:noon -o noon.png
+  tyndall presets sunset > evening.toml
+  tyndall render evening.toml -o evening.exr --size 1920x1080 --set sun.elevation_deg=2.5
+  tyndall params sun
+  tyndall doctor";
+
+/// What the program takes.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "tyndall", version, about = ABOUT, after_help = format!("{EXAMPLES}\n\n{}", Exit::table()))]
+#[command(max_term_width = 100, disable_help_subcommand = true)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub subcommand: Subcommand,
+    /// Say on stderr what happens; twice for every detail
+    #[arg(short, long, global = true, action = ArgAction::Count)]
+    pub verbose: u8,
+}
+
+/// What to do.
+#[derive(Clone, Debug, clap::Subcommand)]
+pub enum Subcommand {
+    /// Render a scene to a PNG, EXR or JPEG file
+    Render(RenderArguments),
+    /// List the parameters of scenes: default, unit, range, what each does
+    Params(ParamsArguments),
+    /// Print the JSON schema of scene files, for editors
+    Schema,
+    /// List the scenes that come with Tyndall, or print one
+    Presets(PresetsArguments),
+    /// Look at this computer: adapters, limits, memory, missing packages
+    Doctor(DoctorArguments),
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    #[test]
+    fn the_declaration_of_the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn every_option_of_every_subcommand_has_a_help_text() {
+        for command in Arguments::command().get_subcommands() {
+            assert!(command.get_about().is_some(), "{} says what it does", command.get_name());
+            for argument in command.get_arguments() {
+                assert!(argument.get_help().is_some(), "{} {}", command.get_name(), argument.get_id());
+            }
+        }
+    }
+}

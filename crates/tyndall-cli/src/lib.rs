@@ -1,0 +1,62 @@
+//! The command line program `tyndall`: renders scene files without a window.
+//!
+//! One module per subcommand: [`render`], [`params`], [`schema`], [`presets`], [`doctor`]. What they share: [`exit`] (the
+//! codes that scripts and render farms go by), [`failure`] (which error ends with which code, and the one sentence that the
+//! user reads), [`values`] (what options take), [`interrupt`] (Ctrl-C and termination) and [`progress`].
+//!
+//! Results go to stdout; progress, warnings and errors to stderr, so that pipes stay clean. With `--progress json` stdout
+//! carries one JSON object a line.
+
+mod arguments;
+pub mod doctor;
+pub mod exit;
+pub mod failure;
+pub mod interrupt;
+mod log;
+mod output;
+pub mod params;
+pub mod presets;
+pub mod progress;
+pub mod render;
+pub mod schema;
+pub mod values;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+pub use arguments::{Arguments, Subcommand};
+pub use exit::Exit;
+pub use failure::Failure;
+
+/// Runs the program with these arguments, the first of which is its own name.
+#[must_use]
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(refusal) => {
+            // Help and version come this way too. Without a terminal to print to, nothing is left to be done.
+            let _ = refusal.print();
+            return if refusal.use_stderr() { Exit::Usage.into() } else { Exit::Success.into() };
+        }
+    };
+    log::start(arguments.verbose);
+    match dispatch(&arguments.subcommand) {
+        Ok(()) => Exit::Success.into(),
+        Err(failure) => {
+            output::warn(&failure.report());
+            failure.exit().into()
+        }
+    }
+}
+
+fn dispatch(subcommand: &Subcommand) -> Result<(), Failure> {
+    match subcommand {
+        Subcommand::Render(arguments) => render::run(arguments),
+        Subcommand::Params(arguments) => params::run(arguments),
+        Subcommand::Schema => schema::run(),
+        Subcommand::Presets(arguments) => presets::run(arguments),
+        Subcommand::Doctor(arguments) => doctor::run(*arguments),
+    }
+}

@@ -1,0 +1,207 @@
+//! `tyndall render`: from a scene to a picture file.
+//!
+//! Whatever can be refused is refused before the graphics device is opened: options, scene, settings, sizes, the place of
+//! the file. Then the frame is drawn, on a second device if the first one is lost, and the file appears complete or not at
+//! all. The same command on the same adapter gives the same bytes.
+
+mod format;
+mod frame;
+mod header;
+mod memory;
+mod source;
+mod write;
+
+use std::path::PathBuf;
+
+use clap::builder::NonEmptyStringValueParser;
+use serde_json::json;
+use tyndall_gpu::{AdapterChoice, GpuOptions, PassTiming};
+use tyndall_io::atomic::check_writable;
+use tyndall_scene::Scene;
+
+use crate::interrupt::Interrupt;
+use crate::progress::{Progress, ProgressFormat, Stage};
+use crate::values::{parse_bytes, parse_setting, parse_size_px};
+use crate::{Exit, Failure};
+
+pub use format::{Bits, CompressionName, FormatArguments, OutputFormat};
+use frame::Job;
+use write::Written;
+
+const EXAMPLES: &str = "\
+Examples:
+  tyndall render preset:noon -o noon.png
+  tyndall render dusk.toml -o dusk.exr --size 3840x2160 --float
+  tyndall render dusk.toml -o d.png --set sun.elevation_deg=2 --set film.tone_map=aces
+  tyndall render dusk.toml -o d.exr --adapter software --max-memory 4G
+
+Units are in the names of the parameters (altitude_m, elevation_deg);
+`tyndall params` lists them all. EXR holds the light of the scene, linear
+Rec.709 in cd/m2, with depth in metres as Z; PNG and JPEG hold the developed
+picture in sRGB.";
+
+/// What `tyndall render` takes.
+#[derive(Clone, Debug, clap::Args)]
+#[command(after_help = format!("{EXAMPLES}\n\n{}", Exit::table()))]
+pub struct RenderArguments {
+    /// Scene file, or `preset:NAME` for a scene that comes with Tyndall
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    pub scene: String,
+    /// Picture file; its ending decides the format: .png, .exr, .jpg
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Size of the picture in pixels, in place of the scene's
+    #[arg(long, value_name = "WxH", value_parser = parse_size_px)]
+    pub size: Option<[u32; 2]>,
+    /// Change a parameter of the scene; may be repeated
+    #[arg(long, value_name = "GROUP.KEY=VALUE", value_parser = parse_setting)]
+    pub set: Vec<(String, String)>,
+    /// Graphics adapter: auto, software, an index or a part of its name (see `tyndall doctor`)
+    #[arg(long, value_name = "ADAPTER", default_value_t)]
+    pub adapter: AdapterChoice,
+    /// Most memory for the picture, such as 8G; by default what the system has to spare
+    #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
+    pub max_memory: Option<u64>,
+    /// How to report progress
+    #[arg(long, value_name = "READER", value_enum, default_value_t)]
+    pub progress: ProgressFormat,
+    /// How to store the picture.
+    #[command(flatten)]
+    pub format: FormatArguments,
+}
+
+/// Renders.
+///
+/// # Errors
+/// Everything that can be wrong with scene, options, device and file.
+pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
+    let mut progress = Progress::start(arguments.progress);
+    let rendered = render(arguments, &mut progress);
+    if let Err(failure) = &rendered {
+        progress.fail(failure);
+    }
+    rendered
+}
+
+fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Failure> {
+    let format = arguments.format.for_file(&arguments.output)?;
+    let scene = scene_of(arguments)?;
+    check_writable(&arguments.output)?;
+    let interrupt = Interrupt::listen()?;
+    let options = GpuOptions { adapter: arguments.adapter.clone(), max_memory_bytes: arguments.max_memory };
+    let job = Job { scene: &scene, format, options: &options, interrupt: &interrupt, progress };
+    let frame = job.run()?;
+
+    progress.stage(Stage::File)?;
+    interrupt.check()?;
+    let metadata = header::metadata(&scene, &frame);
+    let written = write::write(&arguments.output, &frame, format, &metadata, &interrupt)?;
+    report(arguments, &scene, &frame, written, progress)
+}
+
+/// The scene with everything that the command line changes in it.
+fn scene_of(arguments: &RenderArguments) -> Result<Scene, Failure> {
+    let mut scene = source::load(&arguments.scene)?;
+    for (path, value) in &arguments.set {
+        scene.set_text(path, value)?;
+    }
+    if let Some([width_px, height_px]) = arguments.size {
+        scene.set("image.width_px", width_px.into())?;
+        scene.set("image.height_px", height_px.into())?;
+    }
+    scene.check()?;
+    Ok(scene)
+}
+
+fn report(
+    arguments: &RenderArguments,
+    scene: &Scene,
+    frame: &frame::Frame,
+    written: Written,
+    progress: &mut Progress,
+) -> Result<(), Failure> {
+    if written.clamped_pixels > 0 {
+        let (count, percent) = (written.clamped_pixels, 100.0 * written.clamped_luminance_share);
+        progress.warn(&format!(
+            "{count} pixels are brighter than half floats can say and were clamped, {percent:.2} % of the picture's \
+             light; --float keeps it"
+        ));
+    }
+    let (file, [width_px, height_px]) = (arguments.output.display(), frame.size_px);
+    let seconds = progress.seconds();
+    let sentence = format!("{file}: {width_px} x {height_px} px in {seconds:.1} s on {}", frame.adapter);
+    progress.finish(
+        &sentence,
+        json!({
+            "file": file.to_string(),
+            "seconds": seconds,
+            "bytes": written.bytes,
+            "size_px": frame.size_px,
+            "scene_hash": scene.hash().to_string(),
+            "adapter": frame.adapter,
+            "exposure_ev100": frame.ev100,
+            "clamped_pixels": written.clamped_pixels,
+            "clamped_luminance_share": written.clamped_luminance_share,
+            "passes_ms": passes(&frame.passes),
+        }),
+    )
+}
+
+fn passes(timings: &[PassTiming]) -> serde_json::Map<String, serde_json::Value> {
+    timings.iter().map(|timing| (timing.name.to_owned(), json!(timing.ms))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser as _;
+
+    use super::*;
+    use crate::{Arguments, Subcommand};
+
+    fn arguments(words: &[&str]) -> RenderArguments {
+        let line = [&["tyndall", "render", "preset:noon", "-o", "noon.png"], words].concat();
+        match Arguments::try_parse_from(line).unwrap().subcommand {
+            Subcommand::Render(arguments) => arguments,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn settings_and_size_change_the_scene_and_nothing_else() {
+        let plain = scene_of(&arguments(&[])).unwrap();
+        let changed =
+            scene_of(&arguments(&["--size", "64x32", "--set", "sun.elevation_deg=-3", "--set", "sun.disc=off"]));
+        let differences = changed.unwrap().differences(&plain);
+        let expected = ["sun.elevation_deg=-3.0", "sun.disc=false", "image.width_px=64", "image.height_px=32"];
+        assert_eq!(differences, expected, "in the order of the groups");
+    }
+
+    #[test]
+    fn the_last_of_two_settings_of_one_parameter_counts() {
+        let scene = scene_of(&arguments(&["--set", "sun.elevation_deg=1", "--set", "sun.elevation_deg=2"])).unwrap();
+        assert!((scene.sun.elevation_deg - 2.0).abs() < 1e-12, "{}", scene.sun.elevation_deg);
+    }
+
+    #[test]
+    fn wrong_settings_are_refused_with_name_range_or_nearest_name() {
+        for (words, part) in [
+            (["--set", "sun.elevaton_deg=1"], "did you mean `sun.elevation_deg`?"),
+            (["--set", "sun.elevation_deg=91"], "-90 to 90 deg"),
+            (["--set", "sun.elevation_deg=nan"], "-90 to 90 deg"),
+            (["--set", "film.tone_map=vivid"], "\"agx\""),
+            (["--size", "60000x60000"], "`image.width_px` = 60000 px is outside 1 to 16384 px"),
+            (["--size", "0x10"], "`image.width_px` = 0 px"),
+        ] {
+            let failure = scene_of(&arguments(&words)).expect_err("refused");
+            assert!(failure.to_string().contains(part), "{words:?}: {failure}");
+            assert_eq!(failure.exit(), Exit::Usage, "{words:?}");
+        }
+    }
+
+    #[test]
+    fn settings_that_do_not_fit_together_are_refused() {
+        let words = ["--set", "atmosphere.top_altitude_km=20", "--set", "atmosphere.ozone_altitude_km=25"];
+        let failure = scene_of(&arguments(&words)).expect_err("the ozone is above the atmosphere");
+        assert!(failure.to_string().contains("lower the ozone"), "{failure}");
+    }
+}

@@ -1,0 +1,124 @@
+//! Draws the frame and fetches its pixels.
+
+use std::time::Duration;
+
+use tyndall_gpu::wgpu::{PollError, PollType, SubmissionIndex};
+use tyndall_gpu::{Gpu, GpuOptions, PassTiming};
+use tyndall_io::Picture;
+use tyndall_render::{FrameFormat, FrameTarget, PictureFormat, Renderer, RendererConfig};
+use tyndall_scene::Scene;
+
+use super::format::{Bits, OutputFormat};
+use super::memory::check_budget;
+use crate::Failure;
+use crate::interrupt::Interrupt;
+use crate::progress::{Progress, Stage};
+
+/// How soon a signal is noticed while the GPU works.
+const WAIT_SLICE: Duration = Duration::from_millis(100);
+
+/// Everything that drawing a frame needs.
+#[derive(Debug)]
+pub(super) struct Job<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) format: OutputFormat,
+    pub(super) options: &'a GpuOptions,
+    pub(super) interrupt: &'a Interrupt,
+    pub(super) progress: &'a Progress,
+}
+
+/// A frame in the computer's own memory.
+#[derive(Debug)]
+pub(super) struct Frame {
+    pub(super) size_px: [u32; 2],
+    pub(super) pixels: Pixels,
+    pub(super) adapter: String,
+    pub(super) ev100: f64,
+    pub(super) passes: Vec<PassTiming>,
+}
+
+/// Pixels as the file wants them, row 0 on top.
+#[derive(Debug)]
+pub(super) enum Pixels {
+    /// Developed, 8 bits.
+    Eight(Vec<[u8; 4]>),
+    /// Developed, 16 bits.
+    Sixteen(Vec<[u16; 4]>),
+    /// Light of the scene, and depth.
+    Light(Picture),
+}
+
+impl Job<'_> {
+    /// Draws the frame; if the device is lost, once more on a new one.
+    pub(super) fn run(&self) -> Result<Frame, Failure> {
+        match self.attempt() {
+            Err(failure) if failure.is_lost_device() => {
+                self.progress.warn(&format!("{failure}; trying once more"));
+                self.attempt()
+            }
+            other => other,
+        }
+    }
+
+    fn attempt(&self) -> Result<Frame, Failure> {
+        self.stage(Stage::Device)?;
+        let gpu = Gpu::open(self.options)?;
+        let (config, size_px) = (config(self.format), [self.scene.image.width_px, self.scene.image.height_px]);
+        check_budget(&gpu, size_px, self.format, config)?;
+
+        self.stage(Stage::Pipelines)?;
+        let mut renderer = Renderer::new(&gpu, config)?;
+        let mut target = FrameTarget::new(&gpu, size_px, config)?;
+
+        self.stage(Stage::Frame)?;
+        let submission = renderer.render(&gpu, self.scene, &mut target)?;
+        self.wait(&gpu, &submission)?;
+
+        self.stage(Stage::ReadBack)?;
+        let pixels = self.read(&gpu, &target)?;
+        let ev100 = renderer.read_ev100(&gpu)?;
+        let passes = renderer.timings(&gpu)?;
+        gpu.check()?;
+        Ok(Frame { size_px, pixels, adapter: gpu.adapter().name.clone(), ev100, passes })
+    }
+
+    fn stage(&self, stage: Stage) -> Result<(), Failure> {
+        self.interrupt.check()?;
+        self.progress.stage(stage)
+    }
+
+    /// Waits for the GPU, and for a signal.
+    fn wait(&self, gpu: &Gpu, submission: &SubmissionIndex) -> Result<(), Failure> {
+        let slice = || PollType::Wait { submission_index: Some(submission.clone()), timeout: Some(WAIT_SLICE) };
+        while let Err(PollError::Timeout) = gpu.device.poll(slice()) {
+            gpu.check()?;
+            self.interrupt.check()?;
+        }
+        Ok(gpu.check()?)
+    }
+
+    fn read(&self, gpu: &Gpu, target: &FrameTarget) -> Result<Pixels, Failure> {
+        Ok(match self.format {
+            OutputFormat::Png(Bits::Eight) | OutputFormat::Jpeg => Pixels::Eight(target.read_picture8(gpu)?),
+            OutputFormat::Png(Bits::Sixteen) => Pixels::Sixteen(target.read_picture16(gpu)?),
+            OutputFormat::Exr(..) => Pixels::Light(Picture {
+                size_px: target.size_px(),
+                rgba: target.read_radiance(gpu)?,
+                depth_m: Some(target.read_depth_m(gpu)?),
+            }),
+        })
+    }
+}
+
+/// Precision of the frame: the app's own for its picture, more where the file keeps more.
+fn config(format: OutputFormat) -> RendererConfig {
+    match format {
+        OutputFormat::Png(Bits::Eight) | OutputFormat::Jpeg => {
+            RendererConfig { frame: FrameFormat::Half, picture: PictureFormat::Eight }
+        }
+        OutputFormat::Png(Bits::Sixteen) => {
+            RendererConfig { frame: FrameFormat::Float, picture: PictureFormat::Sixteen }
+        }
+        OutputFormat::Exr(..) => RendererConfig { frame: FrameFormat::Float, picture: PictureFormat::Eight },
+    }
+}
