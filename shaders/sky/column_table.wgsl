@@ -1,4 +1,4 @@
-// Fills the column table: paper eq. (2) without the wavelength. One texel per invocation, 2 x 12 panels of four Gauss
+// Fills the column table: paper eq. (2) without the wavelength. One texel per invocation, 2 x 24 panels of four Gauss
 // nodes. Stored are ln(column / density at the observer) for air and aerosol, and the column of ozone [m].
 // Exact integral and table in f64: tyndall_scattering::{optical_length, column_table}.
 // @import sky/column_map.wgsl
@@ -6,7 +6,7 @@
 
 @group(0) @binding(1) var column_texels: texture_storage_2d<rgba32float, write>;
 
-const COLUMN_PANELS: u32 = 12u;
+const COLUMN_PANELS: u32 = 24u;
 
 /// Densities at distance t along a ray, those of air and aerosol relative to the ones at the observer. The exponent ends
 /// where f32 does; so thin a medium contributes nothing.

@@ -26,6 +26,16 @@ fn sky_view_ray(texel: vec2<u32>) -> Ray {
     return Ray(top, mu_along(radius, h, mu, 1.0, entry, top), mu_along(radius, h, mu_sun, nu, entry, top), nu);
 }
 
+/// Length of a ray. The row decides on which side of the horizon it ends; at the horizon itself rounding must not.
+fn sky_view_length(ray: Ray, above: bool) -> f32 {
+    let radius = atmosphere.planet_radius_m;
+    if (above) {
+        return distance_to_top(radius, atmosphere.top_altitude_m, ray.h, ray.mu);
+    }
+    let to_ground = distance_to_ground(radius, ray.h, ray.mu);
+    return select(to_ground, max(-(radius + ray.h) * ray.mu, 0.0), to_ground < 0.0);
+}
+
 @compute @workgroup_size(8, 8, 1)
 fn sky_view_table(@builtin(global_invocation_id) id: vec3<u32>) {
     if (any(id.xy >= sky_view.table_size)) { return; }
@@ -33,11 +43,7 @@ fn sky_view_table(@builtin(global_invocation_id) id: vec3<u32>) {
     var air = vec3<f32>(0.0);
     var aerosol = vec3<f32>(0.0);
     if (ray.mu <= 1.0) {
-        let radius = atmosphere.planet_radius_m;
-        let to_ground = distance_to_ground(radius, ray.h, ray.mu);
-        let to_top = distance_to_top(radius, atmosphere.top_altitude_m, ray.h, ray.mu);
-        // The row decides on which side of the horizon the ray ends; rounding must not.
-        let length = select(to_ground, to_top, id.y >= sky_view.rows_below || to_ground < 0.0);
+        let length = sky_view_length(ray, id.y >= sky_view.rows_below);
         let light = march_scattered(ray, length, sky_view.panels);
         air = atmosphere_rec709(light.air);
         aerosol = atmosphere_rec709(light.aerosol);

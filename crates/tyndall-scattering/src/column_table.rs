@@ -20,7 +20,7 @@ use crate::optical_length::{Columns, columns_to_top};
 pub const COLUMN_TABLE_SIZE: [usize; 2] = [256, 128];
 
 /// Columns smaller than this [m] are stored as this, so that the logarithm stays finite.
-const SMALLEST_COLUMN_M: f64 = 1e-30;
+const SMALLEST_COLUMN_M: f64 = 1e-300;
 
 /// Columns of all media to the top of the atmosphere.
 #[derive(Clone, Debug)]

@@ -44,7 +44,12 @@ impl Marcher {
     /// by aerosol. The ray starts inside the atmosphere.
     #[must_use]
     pub fn scattered_parts(&self, ray: &Ray) -> [Spectrum; SCATTERER_COUNT] {
-        let length_m = ray_end(&self.atmosphere, ray.h_m, ray.mu).length_m;
+        self.scattered_parts_to(ray, ray_end(&self.atmosphere, ray.h_m, ray.mu).length_m)
+    }
+
+    /// As [`Marcher::scattered_parts`], up to a distance.
+    #[must_use]
+    pub fn scattered_parts_to(&self, ray: &Ray, length_m: f64) -> [Spectrum; SCATTERER_COUNT] {
         let path = PathMap::new(self.atmosphere.planet_radius_m, ray, length_m);
         let mut sum = Sum { columns: [0.0; MEDIUM_COUNT], parts: [[0.0; WAVELENGTH_COUNT]; SCATTERER_COUNT] };
         for piece in path.breaks.windows(2) {

@@ -15,8 +15,9 @@ use rayon::prelude::*;
 use tyndall_core::grid::Grid2;
 use tyndall_core::spectrum::rec709_from_spectrum;
 
+use crate::Atmosphere;
 use crate::atmosphere::{AEROSOL, AIR};
-use crate::geometry::Ray;
+use crate::geometry::{Ray, distance_to_ground, distance_to_top};
 use crate::march::Marcher;
 
 /// Linear Rec.709 [cd/m^2 sr] by air and by aerosol, before the phase functions.
@@ -70,7 +71,8 @@ impl SkyViewTable {
             let (elevation, azimuth) = sky_view_map_inverse(horizon_elevation, above, unit);
             let (mu, sine) = (elevation.sin(), elevation.cos());
             let nu = mu * mu_sun + sine * (1.0 - mu_sun * mu_sun).max(0.0).sqrt() * azimuth.cos();
-            let parts = marcher.scattered_parts(&Ray { h_m, mu, mu_sun, nu: nu.clamp(-1.0, 1.0) });
+            let ray = Ray { h_m, mu, mu_sun, nu: nu.clamp(-1.0, 1.0) };
+            let parts = marcher.scattered_parts_to(&ray, row_length_m(&marcher.atmosphere, &ray, above));
             SkyTexel { air: rec709_from_spectrum(&parts[AIR]), aerosol: rec709_from_spectrum(&parts[AEROSOL]) }
         };
         let fill = |rows: usize, above: bool| {
@@ -110,6 +112,16 @@ impl SkyViewTable {
     }
 }
 
+/// Length of a ray. The row decides on which side of the horizon it ends; at the horizon itself rounding must not.
+fn row_length_m(atmosphere: &Atmosphere, ray: &Ray, above: bool) -> f64 {
+    let radius_m = atmosphere.planet_radius_m;
+    if above {
+        return distance_to_top(radius_m, atmosphere.top_altitude_m, ray.h_m, ray.mu);
+    }
+    let to_tangent_m = || -(radius_m + ray.h_m) * ray.mu;
+    distance_to_ground(radius_m, ray.h_m, ray.mu).unwrap_or_else(to_tangent_m)
+}
+
 /// Elevation of the geometric horizon [rad], 0 or below.
 #[must_use]
 pub fn horizon_elevation(planet_radius_m: f64, h_m: f64) -> f64 {
@@ -136,7 +148,6 @@ pub fn sky_view_map_inverse(horizon_elevation: f64, above: bool, unit: [f64; 2])
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Atmosphere;
     use crate::params::{AtmosphereParams, GroundParams};
     use crate::single_scattering::single_scattering;
 

@@ -1,0 +1,11 @@
+//! Physics from end to end: the f64 reference against independent data, the GPU's tables and frames against the
+//! reference, and laws that a picture obeys.
+
+mod dome;
+mod gpu_tables;
+mod laws;
+mod pictures;
+mod reference_data;
+mod render;
+mod sun_disc;
+mod twins;
