@@ -1,0 +1,12 @@
+//! Tests of `tyndall-gpu` on an adapter.
+
+mod adapters;
+mod bindings;
+mod child;
+mod loss;
+mod memory;
+mod readback;
+mod rendering;
+mod shader_errors;
+mod shader_functions;
+mod timings;

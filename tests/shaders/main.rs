@@ -1,0 +1,9 @@
+//! Every WGSL file: valid, portable, without the constructs that software adapters get wrong, documented, and compared
+//! with its Rust twin.
+
+mod documentation;
+mod loops;
+mod modules;
+mod portability;
+mod rules;
+mod twins;

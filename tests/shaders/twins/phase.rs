@@ -1,0 +1,20 @@
+//! Twins of `shaders/common/phase.wgsl`.
+
+use tyndall_scattering::phase;
+use tyndall_tests::Tolerance;
+
+use super::NONE;
+
+twins! { "common/phase.wgsl";
+    // Four roundings.
+    phase_rayleigh in [-1.0..=1.0, NONE, NONE, NONE], within Tolerance::relative(5e-7), {
+        "phase_rayleigh(x.x)" => |x| phase::phase_rayleigh(x[0]),
+    }
+    // The denominator cancels in the forward peak: (1 - g)^2 = 0.0025 left of terms of 2, so 1.5 * 2 / 0.0025 roundings.
+    phase_cornette_shanks in [-1.0..=1.0, -0.95..=0.95, NONE, NONE], within Tolerance::relative(1.5e-4), {
+        "phase_cornette_shanks(x.x, x.y)" => |x| phase::phase_cornette_shanks(x[0], x[1]),
+    }
+    phase_henyey_greenstein in [-1.0..=1.0, -0.95..=0.95, NONE, NONE], within Tolerance::relative(1.5e-4), {
+        "phase_henyey_greenstein(x.x, x.y)" => |x| phase::phase_henyey_greenstein(x[0], x[1]),
+    }
+}
