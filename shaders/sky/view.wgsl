@@ -17,7 +17,7 @@ struct SkyView {
     dome_segments: u32,
     ground_pattern: u32,          // 0 plain, 1 checker
     ground_tile_m: f32,
-    _pad0: u32,
+    padding: u32,
 }
 @group(0) @binding(3) var<uniform> sky_view: SkyView;
 

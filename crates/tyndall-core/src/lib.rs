@@ -1,6 +1,6 @@
 //! What every Tyndall crate stands on: parameters declared once, counter-based random numbers, grids and spectra.
 //!
-//! - [`params`]: the [`params!`] and [`choices!`] macros; one declaration feeds struct, default, range check, scene file,
+//! - [`mod@params`]: the [`params!`] and [`choices!`] macros; one declaration feeds struct, default, range check, scene file,
 //!   command line, sliders, tooltips and documentation.
 //! - [`rng`]: Philox4x32-10, a random number as a pure function of (seed, step, cell).
 //! - [`grid`]: dense 2-D and 3-D arrays with a documented index order and linear interpolation.

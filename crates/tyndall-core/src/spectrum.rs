@@ -15,15 +15,15 @@ pub const WAVELENGTH_COUNT: usize = 8;
 /// One value per wavelength of [`WAVELENGTHS_NM`].
 pub type Spectrum = [f64; WAVELENGTH_COUNT];
 
-/// The wavelengths [nm].
+/// The wavelengths (nm).
 pub const WAVELENGTHS_NM: Spectrum = [395.0, 442.0, 477.0, 524.0, 571.0, 618.0, 654.0, 701.0];
 
-/// Sunlight at the top of the atmosphere at the mean distance from the sun [W/m^2/nm]: ASTM G-173 extraterrestrial,
+/// Sunlight at the top of the atmosphere at the mean distance from the sun (W/m^2/nm): ASTM G-173 extraterrestrial,
 /// averaged over bins of 10 nm, interpolated at [`WAVELENGTHS_NM`].
 pub const SOLAR_IRRADIANCE_W_M2_NM: Spectrum =
     [1.14716, 1.822145, 2.00445, 1.86463, 1.83434, 1.692132, 1.529767, 1.425388];
 
-/// CIE XYZ [cd/m^2 for Y] per spectral radiance [W/m^2/sr/nm] at [`WAVELENGTHS_NM`]; see the module for the fit.
+/// CIE XYZ (cd/m^2 for Y) per spectral radiance (W/m^2/sr/nm) at [`WAVELENGTHS_NM`]; see the module for the fit.
 pub const XYZ_FROM_SPECTRUM: [Spectrum; 3] = [
     [918.265916, 8526.558394, 3055.523491, 3295.392438, 25665.591317, 26984.650188, 4474.276226, 692.343275],
     [3.481679, 751.168772, 2953.423236, 25263.134903, 29518.331149, 12844.994104, 1737.056854, 204.810981],
@@ -40,7 +40,7 @@ pub const REC709_FROM_XYZ: [[f64; 3]; 3] = [
 /// Luminance weights of linear Rec.709, the second row of the inverse of [`REC709_FROM_XYZ`].
 pub const REC709_LUMINANCE: [f64; 3] = [0.212_672_9, 0.715_152_2, 0.072_175_0];
 
-/// CIE XYZ, with Y in cd/m^2, of a spectral radiance [W/m^2/sr/nm]; with an irradiance [W/m^2/nm], Y is in lux.
+/// CIE XYZ, with Y in cd/m^2, of a spectral radiance (W/m^2/sr/nm); with an irradiance (W/m^2/nm), Y is in lux.
 #[must_use]
 pub fn xyz_from_spectrum(spectrum: &Spectrum) -> [f64; 3] {
     XYZ_FROM_SPECTRUM.map(|weights| weights.iter().zip(spectrum).map(|(weight, value)| weight * value).sum())
@@ -52,7 +52,7 @@ pub fn rec709_from_xyz(xyz: [f64; 3]) -> [f64; 3] {
     REC709_FROM_XYZ.map(|row| row.iter().zip(xyz).map(|(weight, value)| weight * value).sum())
 }
 
-/// Linear Rec.709, with luminance in cd/m^2, of a spectral radiance [W/m^2/sr/nm].
+/// Linear Rec.709, with luminance in cd/m^2, of a spectral radiance (W/m^2/sr/nm).
 #[must_use]
 pub fn rec709_from_spectrum(spectrum: &Spectrum) -> [f64; 3] {
     rec709_from_xyz(xyz_from_spectrum(spectrum))
@@ -72,7 +72,7 @@ pub fn rec709_from_spectrum_matrix() -> [Spectrum; 3] {
     })
 }
 
-/// Luminance [cd/m^2] of linear Rec.709 [cd/m^2].
+/// Luminance (cd/m^2) of linear Rec.709 (cd/m^2).
 #[must_use]
 pub fn luminance_from_rec709(rgb: [f64; 3]) -> f64 {
     rgb.iter().zip(REC709_LUMINANCE).map(|(value, weight)| value * weight).sum()
@@ -85,7 +85,7 @@ pub fn chromaticity(xyz: [f64; 3]) -> [f64; 2] {
     [xyz[0] / sum, xyz[1] / sum]
 }
 
-/// Illuminance of the unattenuated sun [lux].
+/// Illuminance of the unattenuated sun (lux).
 #[must_use]
 pub fn solar_illuminance_lux() -> f64 {
     xyz_from_spectrum(&SOLAR_IRRADIANCE_W_M2_NM)[1]

@@ -5,10 +5,10 @@
 
 use tyndall_scene::{ExposureMode, FilmParams};
 
-/// Luminance [cd/m^2] that becomes white, per 2^EV100.
+/// Luminance (cd/m^2) that becomes white, per 2^EV100.
 const WHITE_CD_M2: f64 = 1.2;
 
-/// How far the sun's elevation [deg] sets the light of a clear day [EV100]; the guess behind the pre-exposure.
+/// How far the sun's elevation (deg) sets the light of a clear day (EV100); the guess behind the pre-exposure.
 const LIGHT_OF_DAY: [(f64, f64); 6] =
     [(-18.0, -4.0), (-12.0, -1.0), (-6.0, 5.0), (0.0, 11.5), (20.0, 15.0), (90.0, 15.5)];
 
@@ -25,7 +25,7 @@ pub fn ev100_from_gain(gain: f64) -> f64 {
 }
 
 /// A guess at the exposure before anything is drawn: the manual one, or that of a clear day with the sun at this
-/// elevation [rad]. It only has to keep the frame within the range of half floats.
+/// elevation (rad). It only has to keep the frame within the range of half floats.
 #[must_use]
 pub fn expected_ev100(film: &FilmParams, sun_elevation_rad: f64) -> f64 {
     match film.exposure {

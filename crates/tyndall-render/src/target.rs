@@ -6,7 +6,7 @@ use tyndall_scene::camera::NEAR_M;
 
 use crate::RenderError;
 
-/// Depth [m] of pixels that show the sky. Not infinity: viewers scale depth by its maximum.
+/// Depth (m) of pixels that show the sky. Not infinity: viewers scale depth by its maximum.
 pub const SKY_DEPTH_M: f32 = 1e10;
 
 /// Precision of the HDR frame.
@@ -84,7 +84,7 @@ impl FrameTarget {
         descriptions(size_px, config).iter().map(TextureDesc::bytes).fold(0, u64::saturating_add)
     }
 
-    /// Width and height [px].
+    /// Width and height (px).
     #[must_use]
     pub fn size_px(&self) -> [u32; 2] {
         self.frame.size_px()
@@ -120,7 +120,7 @@ impl FrameTarget {
         }
     }
 
-    /// Radiance [cd/m^2], linear Rec.709, row 0 on top; alpha is 1.
+    /// Radiance (cd/m^2), linear Rec.709, row 0 on top; alpha is 1.
     ///
     /// # Errors
     /// When the device is lost or the read-back does not fit into the memory budget.
@@ -131,12 +131,14 @@ impl FrameTarget {
         Ok(match self.config.frame {
             FrameFormat::Float => floats(&bytes).map(scale).collect(),
             FrameFormat::Half => {
-                bytes.as_chunks::<8>().0.iter().map(|pixel| scale(std::array::from_fn(|i| half_at(pixel, i)))).collect()
+                let float = |half: [u8; 2]| half::f16::from_le_bytes(half).to_f32();
+                let halves = bytes.as_chunks::<2>().0.iter().map(|half| float(*half)).collect::<Vec<_>>();
+                halves.as_chunks::<4>().0.iter().map(|pixel| scale(*pixel)).collect()
             }
         })
     }
 
-    /// Distance [m] along the direction of view, row 0 on top; [`SKY_DEPTH_M`] where the sky is.
+    /// Distance (m) along the direction of view, row 0 on top; [`SKY_DEPTH_M`] where the sky is.
     ///
     /// # Errors
     /// When the device is lost or the read-back does not fit into the memory budget.
@@ -167,11 +169,6 @@ fn descriptions(size_px: [u32; 2], config: RendererConfig) -> [TextureDesc<'stat
 fn floats(bytes: &[u8]) -> impl Iterator<Item = [f32; 4]> {
     let float = |bytes: &[u8; 16], i: usize| f32::from_le_bytes(std::array::from_fn(|k| bytes[4 * i + k]));
     bytes.as_chunks::<16>().0.iter().map(move |pixel| std::array::from_fn(|i| float(pixel, i)))
-}
-
-/// The `index`-th half float of a pixel, IEEE 754 binary16.
-fn half_at(pixel: &[u8; 8], index: usize) -> f32 {
-    half::f16::from_le_bytes([pixel[2 * index], pixel[2 * index + 1]]).to_f32()
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the shader clamps to the range")]

@@ -11,7 +11,7 @@ use tyndall_core::units::M_PER_NM;
 /// Refractive index of air at sea level in the visible, as the paper's constant k needs it.
 pub const REFRACTIVE_INDEX: f64 = 1.000_278;
 
-/// Molecules of air at sea level [1/m^3], `N_s` of the paper's k.
+/// Molecules of air at sea level (1/m^3), `N_s` of the paper's k.
 pub const MOLECULES_PER_M3: f64 = 2.547e25;
 
 /// Optical depth of the standard atmosphere above sea level, Bodhaine et al. 1999, eq. 30; `wavelength_nm` in 250..850.
@@ -22,14 +22,14 @@ pub fn bodhaine_optical_depth(wavelength_nm: f64) -> f64 {
     0.002152 * (1.0455996 - 341.29061 / l2 - 0.9023085 * l2) / (1.0 + 0.0027059889 / l2 - 85.968563 * l2)
 }
 
-/// The constant k of equation (1) [m^3]: 2 pi^2 (n^2 - 1)^2 / (3 `N_s`).
+/// The constant k of equation (1) (m^3): 2 pi^2 (n^2 - 1)^2 / (3 `N_s`).
 #[must_use]
 pub fn paper_k_m3() -> f64 {
     let n2 = REFRACTIVE_INDEX * REFRACTIVE_INDEX;
     2.0 * PI * PI * (n2 - 1.0) * (n2 - 1.0) / (3.0 * MOLECULES_PER_M3)
 }
 
-/// Scattering coefficient at sea level of equation (2), 4 pi k / lambda^4 [1/m].
+/// Scattering coefficient at sea level of equation (2), 4 pi k / lambda^4 (1/m).
 #[must_use]
 pub fn paper_scattering_per_m(wavelength_nm: f64) -> f64 {
     let wavelength_m = wavelength_nm * M_PER_NM;

@@ -26,13 +26,13 @@ pub const SCATTERER_COUNT: usize = 2;
 /// A planet's atmosphere at any number of wavelengths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Atmosphere {
-    /// Radius of the planet at sea level [m].
+    /// Radius of the planet at sea level (m).
     pub planet_radius_m: f64,
-    /// Altitude of the top [m].
+    /// Altitude of the top (m).
     pub top_altitude_m: f64,
-    /// Wavelengths [nm]; every spectrum below has as many values.
+    /// Wavelengths (nm); every spectrum below has as many values.
     pub wavelengths_nm: Vec<f64>,
-    /// Sunlight at the top, on a plane facing the sun [W/m^2/nm].
+    /// Sunlight at the top, on a plane facing the sun (W/m^2/nm).
     pub solar_irradiance_w_m2_nm: Vec<f64>,
     /// Air, aerosol, ozone.
     pub media: [Medium; MEDIUM_COUNT],
@@ -55,7 +55,7 @@ impl Atmosphere {
         }
     }
 
-    /// Optical depth at wavelength `index` of a path with these columns [m].
+    /// Optical depth at wavelength `index` of a path with these columns (m).
     #[must_use]
     pub fn optical_depth(&self, columns: &[f64; MEDIUM_COUNT], index: usize) -> f64 {
         self.media.iter().zip(columns).map(|(medium, column)| medium.extinction_per_m(index) * column).sum()
@@ -89,18 +89,18 @@ impl Atmosphere {
 /// Coefficients of an [`Atmosphere`] at the eight wavelengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficients {
-    /// Extinction of each medium at density 1 [1/m].
+    /// Extinction of each medium at density 1 (1/m).
     pub extinction_per_m: [Spectrum; MEDIUM_COUNT],
-    /// Sunlight scattered by air and by aerosol at density 1, before the phase function [W/m^3/nm].
+    /// Sunlight scattered by air and by aerosol at density 1, before the phase function (W/m^3/nm).
     pub source_w_m3_nm: [Spectrum; SCATTERER_COUNT],
-    /// Sunlight at the top [W/m^2/nm].
+    /// Sunlight at the top (W/m^2/nm).
     pub solar_irradiance_w_m2_nm: Spectrum,
     /// Share of light that the ground reflects.
     pub ground_albedo: Spectrum,
 }
 
 impl Coefficients {
-    /// Transmittance of a path with these columns [m].
+    /// Transmittance of a path with these columns (m).
     #[must_use]
     pub fn transmittance(&self, columns: &[f64; MEDIUM_COUNT]) -> Spectrum {
         std::array::from_fn(|index| {

@@ -19,7 +19,7 @@ use crate::optical_length::{Columns, columns_to_top};
 /// Texels of the table: distances, altitudes.
 pub const COLUMN_TABLE_SIZE: [usize; 2] = [256, 128];
 
-/// Columns smaller than this [m] are stored as this, so that the logarithm stays finite.
+/// Columns smaller than this (m) are stored as this, so that the logarithm stays finite.
 const SMALLEST_COLUMN_M: f64 = 1e-300;
 
 /// Columns of all media to the top of the atmosphere.
@@ -71,7 +71,7 @@ impl ColumnTable {
         Self { planet_radius_m, top_altitude_m, scale_heights_m, cells }
     }
 
-    /// Columns [m] from altitude `h_m` (0 to the top) in a direction above the horizon.
+    /// Columns (m) from altitude `h_m` (0 to the top) in a direction above the horizon.
     #[must_use]
     pub fn lookup(&self, h_m: f64, mu: f64) -> Columns {
         let [x, y] = column_map(self.planet_radius_m, self.top_altitude_m, h_m, mu);
@@ -107,7 +107,7 @@ pub fn column_map(radius_m: f64, top_m: f64, h_m: f64, mu: f64) -> [f64; 2] {
     [((distance_m - shortest_m) / (longest_m - shortest_m)).clamp(0.0, 1.0), rho / rho_top]
 }
 
-/// Altitude [m] and zenith cosine of a place in the table; the inverse of [`column_map`].
+/// Altitude (m) and zenith cosine of a place in the table; the inverse of [`column_map`].
 #[must_use]
 pub fn column_map_inverse(radius_m: f64, top_m: f64, unit: [f64; 2]) -> (f64, f64) {
     let rho_top = (top_m * (2.0 * radius_m + top_m)).sqrt();

@@ -24,7 +24,7 @@ impl Dome {
         2 * self.rings * self.segments * 6
     }
 
-    /// Elevation and azimuth from the sun [rad] of a vertex of the list.
+    /// Elevation and azimuth from the sun (rad) of a vertex of the list.
     #[must_use]
     pub fn vertex(self, horizon_elevation: f64, index: u32) -> (f64, f64) {
         let (quad, corner) = (index / 6, index % 6);

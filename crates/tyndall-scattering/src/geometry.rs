@@ -6,7 +6,7 @@
 /// An observer's ray, by its altitude and cosines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Altitude of the observer [m], 0 to the top.
+    /// Altitude of the observer (m), 0 to the top.
     pub h_m: f64,
     /// Cosine of the ray's zenith angle.
     pub mu: f64,
@@ -17,7 +17,7 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// From zenith angles and the azimuth between ray and sun [rad].
+    /// From zenith angles and the azimuth between ray and sun (rad).
     #[must_use]
     pub fn from_angles(h_m: f64, view_zenith: f64, sun_zenith: f64, azimuth: f64) -> Self {
         let (mu, mu_sun) = (view_zenith.cos(), sun_zenith.cos());
@@ -26,14 +26,14 @@ impl Ray {
     }
 }
 
-/// Altitude [m] at distance `t_m` along a ray that starts at altitude `h_m` with zenith cosine `mu`.
+/// Altitude (m) at distance `t_m` along a ray that starts at altitude `h_m` with zenith cosine `mu`.
 #[must_use]
 pub fn altitude_along(radius_m: f64, h_m: f64, mu: f64, t_m: f64) -> f64 {
     let q = h_m * (2.0 * radius_m + h_m) + t_m * (2.0 * (radius_m + h_m) * mu + t_m);
     q / (radius_m + (radius_m * radius_m + q).sqrt())
 }
 
-/// Distance [m] from inside to the sphere at altitude `top_m`, for 0 <= `h_m` <= `top_m`.
+/// Distance (m) from inside to the sphere at altitude `top_m`, for 0 <= `h_m` <= `top_m`.
 #[must_use]
 pub fn distance_to_top(radius_m: f64, top_m: f64, h_m: f64, mu: f64) -> f64 {
     let b = (radius_m + h_m) * mu;
@@ -42,7 +42,7 @@ pub fn distance_to_top(radius_m: f64, top_m: f64, h_m: f64, mu: f64) -> f64 {
     if b > 0.0 { q / (root + b) } else { root - b }
 }
 
-/// Distance [m] to the ground, or `None` when the ray misses it.
+/// Distance (m) to the ground, or `None` when the ray misses it.
 #[must_use]
 pub fn distance_to_ground(radius_m: f64, h_m: f64, mu: f64) -> Option<f64> {
     let b = (radius_m + h_m) * mu;

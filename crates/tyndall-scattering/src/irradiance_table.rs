@@ -25,7 +25,7 @@ const TWILIGHT_SHARE: f64 = 0.25;
 const ZENITHS: usize = 16;
 const AZIMUTHS: usize = 16;
 
-/// Irradiance of the sky [W/m^2/nm] on horizontal ground at sea level.
+/// Irradiance of the sky (W/m^2/nm) on horizontal ground at sea level.
 #[derive(Clone, Debug)]
 pub struct IrradianceTable {
     nodes: Vec<Spectrum>,
@@ -77,7 +77,7 @@ pub fn irradiance_map_inverse(unit: f64) -> f64 {
     }
 }
 
-/// Irradiance of the sky [W/m^2/nm] on horizontal ground at sea level, by midpoints in sin^2 of the elevation (so that
+/// Irradiance of the sky (W/m^2/nm) on horizontal ground at sea level, by midpoints in sin^2 of the elevation (so that
 /// equal steps are equal shares of a uniform sky's irradiance) and in half the azimuths.
 #[must_use]
 pub fn sky_irradiance(marcher: &Marcher, mu_sun: f64) -> Spectrum {

@@ -40,7 +40,7 @@ impl Marcher {
         Ok(Self { atmosphere, coefficients, columns, panels })
     }
 
-    /// Light scattered once towards the observer along the whole ray, before the phase functions [W/m^2/nm]: by air and
+    /// Light scattered once towards the observer along the whole ray, before the phase functions (W/m^2/nm): by air and
     /// by aerosol. The ray starts inside the atmosphere.
     #[must_use]
     pub fn scattered_parts(&self, ray: &Ray) -> [Spectrum; SCATTERER_COUNT] {
@@ -141,13 +141,13 @@ impl PathMap {
         map
     }
 
-    /// Distance [m] along the ray and its derivative by x [m].
+    /// Distance (m) along the ray and its derivative by x (m).
     fn position(&self, x: f64) -> (f64, f64) {
         let side_m = if x < 0.0 { self.lowest_m } else { self.length_m - self.lowest_m };
         (self.lowest_m + x * x.abs() * side_m, 2.0 * x.abs() * side_m)
     }
 
-    /// x at a distance [m].
+    /// x at a distance (m).
     fn variable(&self, t_m: f64) -> f64 {
         let from_lowest_m = t_m - self.lowest_m;
         if from_lowest_m < 0.0 {

@@ -7,20 +7,20 @@ use crate::phase::Phase;
 pub enum Profile {
     /// exp(-h / H), equation (2).
     Exponential {
-        /// Scale height H [m].
+        /// Scale height H (m).
         scale_height_m: f64,
     },
     /// 1 at the centre, falling linearly to 0 at `half_width_m` above and below; ozone.
     Tent {
-        /// Altitude of the largest density [m].
+        /// Altitude of the largest density (m).
         centre_m: f64,
-        /// Distance at which the density reaches zero [m].
+        /// Distance at which the density reaches zero (m).
         half_width_m: f64,
     },
 }
 
 impl Profile {
-    /// Relative density at an altitude [m].
+    /// Relative density at an altitude (m).
     #[must_use]
     pub fn density(&self, altitude_m: f64) -> f64 {
         match *self {
@@ -29,7 +29,7 @@ impl Profile {
         }
     }
 
-    /// Vertical column from sea level to infinity [m]: the thickness of the medium if all had density 1.
+    /// Vertical column from sea level to infinity (m): the thickness of the medium if all had density 1.
     #[must_use]
     pub fn vertical_column_m(&self) -> f64 {
         match *self {
@@ -47,16 +47,16 @@ impl Profile {
 pub struct Medium {
     /// Density over altitude.
     pub profile: Profile,
-    /// Scattering coefficient [1/m].
+    /// Scattering coefficient (1/m).
     pub scattering_per_m: Vec<f64>,
-    /// Absorption coefficient [1/m].
+    /// Absorption coefficient (1/m).
     pub absorption_per_m: Vec<f64>,
     /// Directions of the scattered light.
     pub phase: Phase,
 }
 
 impl Medium {
-    /// Scattering plus absorption [1/m] at wavelength `index`.
+    /// Scattering plus absorption (1/m) at wavelength `index`.
     #[must_use]
     pub fn extinction_per_m(&self, index: usize) -> f64 {
         self.scattering_per_m[index] + self.absorption_per_m[index]

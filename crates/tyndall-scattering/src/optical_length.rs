@@ -1,6 +1,6 @@
 //! Equation (2): the optical length of a path, by direct quadrature.
 //!
-//! The density integral is kept apart from the wavelength: the *column* of a medium is the length [m] of a path of the
+//! The density integral is kept apart from the wavelength: the *column* of a medium is the length (m) of a path of the
 //! same number of particles at relative density 1. Optical depth = sum over media of extinction times column. The paper
 //! prints no limit for the path towards the sun; it ends at the top of the atmosphere.
 
@@ -8,14 +8,14 @@ use crate::atmosphere::{Atmosphere, MEDIUM_COUNT};
 use crate::geometry::{altitude_along, distance_to_top};
 use crate::quadrature::integrate;
 
-/// Columns [m] of air, aerosol and ozone.
+/// Columns (m) of air, aerosol and ozone.
 pub type Columns = [f64; MEDIUM_COUNT];
 
 /// Panels of four nodes on each side of the lowest point; twice as many change no column of air or aerosol by 1e-9. The
 /// tent of the ozone has kinks, which leave 2e-4.
 const PANELS: usize = 48;
 
-/// Columns [m] along a ray from altitude `h_m` with zenith cosine `mu`, from its start to `length_m`.
+/// Columns (m) along a ray from altitude `h_m` with zenith cosine `mu`, from its start to `length_m`.
 ///
 /// Exact to quadrature error; nodes cluster quadratically at the lowest point, where densities change fastest.
 #[must_use]
@@ -31,7 +31,7 @@ pub fn columns_along(atmosphere: &Atmosphere, h_m: f64, mu: f64, length_m: f64) 
     std::array::from_fn(|medium| side(medium, lowest_m, -lowest_m) + side(medium, lowest_m, length_m - lowest_m))
 }
 
-/// Columns [m] from altitude `h_m` in the direction of zenith cosine `mu` to the top of the atmosphere. The planet does
+/// Columns (m) from altitude `h_m` in the direction of zenith cosine `mu` to the top of the atmosphere. The planet does
 /// not stand in the way: callers test the shadow first.
 #[must_use]
 pub fn columns_to_top(atmosphere: &Atmosphere, h_m: f64, mu: f64) -> Columns {

@@ -1,6 +1,6 @@
 //! Absorption of ozone in the Chappuis band.
 
-/// Cross-sections at 233 K [1e-27 m^2], Serdyuchenko et al. 2014, means over bins of 10 nm from 360 nm.
+/// Cross-sections at 233 K (1e-27 m^2), Serdyuchenko et al. 2014, means over bins of 10 nm from 360 nm.
 const CROSS_SECTION_1E_27_M2: [f64; 48] = [
     1.18, 0.2182, 0.2818, 0.6636, 1.527, 2.763, 5.52, 8.451, 15.82, 23.16, 36.69, 49.24, 77.52, 90.16, 148.0, 160.2,
     213.9, 275.5, 309.1, 350.0, 426.6, 467.2, 439.8, 470.1, 501.9, 430.5, 374.0, 321.5, 266.2, 223.8, 185.2, 147.3,
@@ -9,7 +9,7 @@ const CROSS_SECTION_1E_27_M2: [f64; 48] = [
 const FIRST_BIN_CENTRE_NM: f64 = 365.0;
 const BIN_NM: f64 = 10.0;
 
-/// Absorption cross-section of one ozone molecule at 233 K [m^2]; linear between bin centres, constant outside 365..835 nm.
+/// Absorption cross-section of one ozone molecule at 233 K (m^2); linear between bin centres, constant outside 365..835 nm.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "clamped to the table before the cast")]
 pub fn ozone_cross_section_m2(wavelength_nm: f64) -> f64 {

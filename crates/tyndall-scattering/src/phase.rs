@@ -1,4 +1,4 @@
-//! Phase functions, normalised so that their integral over the sphere is one [1/sr].
+//! Phase functions, normalised so that their integral over the sphere is one (1/sr).
 //!
 //! `cos_theta` is the cosine between the directions in which light travels before and after. The paper's F(alpha) of
 //! equation (1) has mean 1 over the sphere instead; F = 4 pi p. WGSL twins: `shaders/common/phase.wgsl`.
@@ -43,7 +43,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// Value at the cosine of the scattering angle [1/sr].
+    /// Value at the cosine of the scattering angle (1/sr).
     #[must_use]
     pub fn value(self, cos_theta: f64) -> f64 {
         match self {

@@ -18,7 +18,7 @@ use crate::quadrature::{NODES, RUNNING, WEIGHTS};
 /// Where a ray ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayEnd {
-    /// Distance [m].
+    /// Distance (m).
     pub length_m: f64,
     /// Whether it ends at the ground.
     pub on_ground: bool,
@@ -34,7 +34,7 @@ pub fn ray_end(atmosphere: &Atmosphere, h_m: f64, mu: f64) -> RayEnd {
     )
 }
 
-/// Radiance of the sky in one direction [W/m^2/sr/nm] per wavelength: air, aerosol and the sunlit ground, each behind
+/// Radiance of the sky in one direction (W/m^2/sr/nm) per wavelength: air, aerosol and the sunlit ground, each behind
 /// the atmosphere in front of it.
 #[must_use]
 pub fn single_scattering(atmosphere: &Atmosphere, ray: &Ray) -> Vec<f64> {
@@ -48,7 +48,7 @@ pub fn single_scattering(atmosphere: &Atmosphere, ray: &Ray) -> Vec<f64> {
 /// Panels of four nodes on each lit stretch; doubling them changes no direction by more than 1e-6.
 const PANELS: usize = 96;
 
-/// The integral of equation (1) up to `length_m` for air and aerosol, before the phase function [W/m^2/nm].
+/// The integral of equation (1) up to `length_m` for air and aerosol, before the phase function (W/m^2/nm).
 #[must_use]
 pub fn scattered_parts(atmosphere: &Atmosphere, ray: &Ray, length_m: f64) -> [Vec<f64>; SCATTERER_COUNT] {
     let mut parts = [AIR, AEROSOL].map(|_| vec![0.0; atmosphere.wavelengths_nm.len()]);
@@ -107,7 +107,7 @@ fn add_stretch(
     }
 }
 
-/// Columns [m] from a point of the ray to the top of the atmosphere towards the sun.
+/// Columns (m) from a point of the ray to the top of the atmosphere towards the sun.
 fn sun_columns(atmosphere: &Atmosphere, ray: &Ray, t_m: f64) -> Columns {
     let radius_m = atmosphere.planet_radius_m;
     let altitude_m = altitude_along(radius_m, ray.h_m, ray.mu, t_m).max(0.0);
@@ -115,7 +115,7 @@ fn sun_columns(atmosphere: &Atmosphere, ray: &Ray, t_m: f64) -> Columns {
     columns_to_top(atmosphere, altitude_m, mu_sun)
 }
 
-/// Radiance of the ground in the sun, seen through the air in front of it [W/m^2/sr/nm]; skylight on the ground is left
+/// Radiance of the ground in the sun, seen through the air in front of it (W/m^2/sr/nm); skylight on the ground is left
 /// out here.
 fn sunlit_ground(atmosphere: &Atmosphere, ray: &Ray, length_m: f64) -> Vec<f64> {
     let radius_m = atmosphere.planet_radius_m;

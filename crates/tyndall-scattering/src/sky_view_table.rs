@@ -20,7 +20,7 @@ use crate::atmosphere::{AEROSOL, AIR};
 use crate::geometry::{Ray, distance_to_ground, distance_to_top};
 use crate::march::Marcher;
 
-/// Linear Rec.709 [cd/m^2 sr] by air and by aerosol, before the phase functions.
+/// Linear Rec.709 (cd/m^2 sr) by air and by aerosol, before the phase functions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyTexel {
     /// By air.
@@ -84,7 +84,7 @@ impl SkyViewTable {
         Self { horizon_elevation, above: fill(size[1] - rows_below, true), below: fill(rows_below, false) }
     }
 
-    /// The two parts in a direction: elevation above the horizontal and azimuth from the sun [rad].
+    /// The two parts in a direction: elevation above the horizontal and azimuth from the sun (rad).
     #[must_use]
     pub fn lookup(&self, elevation: f64, azimuth: f64) -> SkyTexel {
         let above = elevation >= self.horizon_elevation;
@@ -97,7 +97,7 @@ impl SkyViewTable {
         part.sample([centre(0), centre(1)])
     }
 
-    /// Radiance [cd/m^2] in a direction, phase functions included.
+    /// Radiance (cd/m^2) in a direction, phase functions included.
     #[must_use]
     pub fn radiance(&self, marcher: &Marcher, elevation: f64, azimuth: f64, nu: f64) -> [f64; 3] {
         let texel = self.lookup(elevation, azimuth);
@@ -122,7 +122,7 @@ fn row_length_m(atmosphere: &Atmosphere, ray: &Ray, above: bool) -> f64 {
     distance_to_ground(radius_m, ray.h_m, ray.mu).unwrap_or_else(to_tangent_m)
 }
 
-/// Elevation of the geometric horizon [rad], 0 or below.
+/// Elevation of the geometric horizon (rad), 0 or below.
 #[must_use]
 pub fn horizon_elevation(planet_radius_m: f64, h_m: f64) -> f64 {
     -((h_m * (2.0 * planet_radius_m + h_m)).sqrt() / planet_radius_m).atan()
@@ -138,7 +138,7 @@ pub fn sky_view_map(horizon_elevation: f64, elevation: f64, azimuth: f64) -> [f6
     [folded.min(2.0 * PI - folded) / PI, (from_horizon / whole).clamp(0.0, 1.0).sqrt()]
 }
 
-/// Elevation and azimuth [rad] of a place in a part of the table; the inverse of [`sky_view_map`].
+/// Elevation and azimuth (rad) of a place in a part of the table; the inverse of [`sky_view_map`].
 #[must_use]
 pub fn sky_view_map_inverse(horizon_elevation: f64, above: bool, unit: [f64; 2]) -> (f64, f64) {
     let whole = if above { FRAC_PI_2 - horizon_elevation } else { -FRAC_PI_2 - horizon_elevation };

@@ -4,13 +4,13 @@ use std::f64::consts::PI;
 
 use tyndall_core::spectrum::{Spectrum, WAVELENGTHS_NM};
 
-/// Mean angular radius of the sun [rad], 0.2667 degrees.
+/// Mean angular radius of the sun (rad), 0.2667 degrees.
 pub const SUN_ANGULAR_RADIUS: f64 = 0.004_654_8;
 
-/// Limb-darkening exponents a of I = mu^a at their wavelengths [nm], Hestroffer and Magnan 1998.
+/// Limb-darkening exponents a of I = mu^a at their wavelengths (nm), Hestroffer and Magnan 1998.
 const LIMB_EXPONENTS: [(f64, f64); 3] = [(440.0, 0.652), (550.0, 0.503), (680.0, 0.397)];
 
-/// Limb-darkening exponent at a wavelength [nm]: linear between the published ones and beyond them.
+/// Limb-darkening exponent at a wavelength (nm): linear between the published ones and beyond them.
 #[must_use]
 pub fn limb_exponent(wavelength_nm: f64) -> f64 {
     let [blue, green, red] = LIMB_EXPONENTS;
@@ -24,7 +24,7 @@ pub fn limb_exponents(limb_darkening: bool) -> Spectrum {
     WAVELENGTHS_NM.map(|nm| if limb_darkening { limb_exponent(nm) } else { 0.0 })
 }
 
-/// Radiance of the disc's centre [W/m^2/sr/nm] for a sunlight of `irradiance` [W/m^2/nm] on a plane facing it.
+/// Radiance of the disc's centre (W/m^2/sr/nm) for a sunlight of `irradiance` (W/m^2/nm) on a plane facing it.
 ///
 /// With I = `I_0` mu^a over a disc of angular radius r: E = pi sin^2(r) `I_0` 2 / (a + 2).
 #[must_use]
@@ -38,7 +38,7 @@ pub fn limb_darkening(share: f64, exponent: f64) -> f64 {
     (1.0 - share * share).max(0.0).powf(0.5 * exponent)
 }
 
-/// Share of the disc above a straight horizon, for the elevation of its centre above it and its radius [rad].
+/// Share of the disc above a straight horizon, for the elevation of its centre above it and its radius (rad).
 #[must_use]
 pub fn visible_share(elevation: f64, angular_radius: f64) -> f64 {
     let x = (elevation / angular_radius).clamp(-1.0, 1.0);

@@ -54,7 +54,7 @@ pub struct SkyView {
     pub dome_segments: u32,
     pub ground_pattern: u32,
     pub ground_tile_m: f32,
-    pub _pad0: u32,
+    pub padding: u32,
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
@@ -132,7 +132,7 @@ impl SkyView {
             dome_segments: scene.sky.dome_segments,
             ground_pattern: u32::from(scene.ground.pattern == GroundPattern::Checker),
             ground_tile_m: scene.ground.tile_m as f32,
-            _pad0: 0,
+            padding: 0,
         })
     }
 
