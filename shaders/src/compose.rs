@@ -247,4 +247,15 @@ mod tests {
         let message = compose("sky/nope.wgsl").expect_err("no such file").to_string();
         assert!(message.starts_with("there is no shader file \"sky/nope.wgsl\""), "{message}");
     }
+
+    #[test]
+    fn a_folder_of_shaders_composes_like_the_table() {
+        let folder = Library::Folder(env!("CARGO_MANIFEST_DIR").into());
+        for name in crate::entries() {
+            let text = folder.text(name).expect("the folder has the files of the table");
+            assert_eq!(compose_with(name, &text, &folder), compose_with(name, &text, &Library::Table(FILES)), "{name}");
+        }
+        assert_eq!(folder.text("sky/nope.wgsl"), None, "no such file");
+        assert!(folder.hint().contains("TYNDALL_SHADER_DIR"), "the message names the variable: {}", folder.hint());
+    }
 }

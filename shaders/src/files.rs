@@ -56,22 +56,35 @@ mod tests {
         }
     }
 
+    /// For each file that the table lacks, the line to add and where.
+    fn forgotten(found: &BTreeSet<String>, listed: &BTreeSet<String>) -> Vec<String> {
+        let line = |name: &String| {
+            let before = listed.range(..name.clone()).next_back();
+            let place = before.map_or("as the first line".to_owned(), |before| format!("after the line \"{before}\","));
+            format!("add to FILES in shaders/src/files.rs, {place}:\n    \"{name}\",")
+        };
+        found.difference(listed).map(line).collect()
+    }
+
     #[test]
     fn every_wgsl_file_of_the_folder_has_a_line_in_the_table() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let mut found = BTreeSet::new();
         files_below(root, root, &mut found);
-        let listed: BTreeSet<String> = FILES.iter().map(|(name, _)| (*name).to_owned()).collect();
-        let forgotten: Vec<String> = found
-            .difference(&listed)
-            .map(|name| {
-                let before = listed.range(..name.clone()).next_back();
-                let place =
-                    before.map_or("as the first line".to_owned(), |before| format!("after the line \"{before}\","));
-                format!("add to FILES in shaders/src/files.rs, {place}:\n    \"{name}\",")
-            })
-            .collect();
+        let forgotten = forgotten(&found, &FILES.iter().map(|(name, _)| (*name).to_owned()).collect());
         assert!(forgotten.is_empty(), "{}", forgotten.join("\n"));
+    }
+
+    #[test]
+    fn a_forgotten_file_is_reported_with_the_line_to_add_and_its_place() {
+        let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+        let found = names(&["a.wgsl", "sky/b.wgsl", "sky/c.wgsl"]);
+        assert_eq!(
+            forgotten(&found, &names(&["a.wgsl", "sky/c.wgsl"])),
+            ["add to FILES in shaders/src/files.rs, after the line \"a.wgsl\",:\n    \"sky/b.wgsl\","],
+            "between its neighbours"
+        );
+        assert_eq!(forgotten(&found, &found), Vec::<String>::new(), "nothing is forgotten");
     }
 
     #[test]

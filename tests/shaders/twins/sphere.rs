@@ -41,11 +41,11 @@ twins! { "common/sphere.wgsl";
             => |x| geometry::distance_to_top(RADIUS_M, TOP_M, x[0], x[1]),
     }
     // The discriminant keeps a twentieth of its terms.
-    distance_to_entry in [2e5..=1e6, -1.0..=-0.55, -0.15..=1.0, NONE], within Tolerance::relative(1e-5), {
+    distance_to_entry in [2e5..=1e6, -1.0..=-0.55, -0.15..=1.0, NONE], within Tolerance::relative(2e-6), {
         "distance_to_entry(6360000.0, 100000.0, x.x, x.y)" => |x| distance_to_entry(x[0], x[1]),
         "distance_to_entry(6360000.0, 100000.0, x.x, x.z)" => |x| distance_to_entry(x[0], x[2]),
     }
-    distance_to_ground in [0.0..=1e5, -1.0..=-0.2, 0.0..=1.0, NONE], within Tolerance::relative(1e-5), {
+    distance_to_ground in [0.0..=1e5, -1.0..=-0.2, 0.0..=1.0, NONE], within Tolerance::relative(2e-6), {
         "distance_to_ground(6360000.0, x.x, x.y)"
             => |x| geometry::distance_to_ground(RADIUS_M, x[0], x[1]).unwrap_or(-1.0),
         "distance_to_ground(6360000.0, x.x, x.z)"
@@ -60,7 +60,7 @@ twins! { "common/sphere.wgsl";
     }
     // In the shadow from the start; with the sun in front, and so in no shadow; and from the light into the shadow.
     shadow_interval in [1e3..=5e4, -1.0..=1.0, -0.5..=-0.3, -0.6..=0.6],
-        within Tolerance { absolute: 0.5, relative: 1e-5 }, {
+        within Tolerance { absolute: 0.5, relative: 1e-6 }, {
         "shadow_interval(6360000.0, x.x, x.y, x.z, x.w, 300000.0).x" => |x| shadow(x[0], [x[1], x[2], x[3]], 3e5).0,
         "shadow_interval(6360000.0, x.x, x.y, x.z, x.w, 300000.0).y" => |x| shadow(x[0], [x[1], x[2], x[3]], 3e5).1,
         "shadow_interval(6360000.0, x.x, x.y, -x.z, x.w, 300000.0).x" => |x| shadow(x[0], [x[1], -x[2], x[3]], 3e5).0,
