@@ -3,6 +3,7 @@
 mod adapters;
 mod bindings;
 mod child;
+mod loop_limit;
 mod loss;
 mod memory;
 mod readback;

@@ -1,0 +1,145 @@
+//! Structs that the host fills: same members at the same bytes in WGSL and in Rust.
+
+use std::collections::BTreeSet;
+
+use naga::{AddressSpace, Handle, Type, TypeInner};
+use tyndall_gpu::layout::StructLayout;
+use tyndall_gpu::rust_layout;
+use tyndall_render::frame::gpu_data::Frame;
+use tyndall_render::sky::gpu_data::{Atmosphere, SkyView};
+
+use crate::modules::{Module, assert_no_faults, faults_in, valid};
+
+/// Every struct in a uniform or storage buffer, by its WGSL name, and its twin in Rust.
+fn twins() -> Vec<(&'static str, StructLayout)> {
+    vec![
+        (
+            "Atmosphere",
+            rust_layout!(Atmosphere {
+                planet_radius_m,
+                top_altitude_m,
+                air_scale_height_m,
+                aerosol_scale_height_m,
+                ozone_altitude_m,
+                ozone_half_width_m,
+                aerosol_g,
+                aerosol_phase,
+                air_extinction,
+                aerosol_extinction,
+                ozone_extinction,
+                air_source,
+                aerosol_source,
+                solar_irradiance,
+                ground_albedo,
+                red,
+                green,
+                blue,
+            }),
+        ),
+        (
+            "Frame",
+            rust_layout!(Frame {
+                right,
+                tan_half_width,
+                up,
+                tan_half_height,
+                forward,
+                near_m,
+                position_m,
+                pre_exposure,
+                size_px,
+                tone_map,
+                dither,
+                auto_exposure,
+                manual_gain,
+                compensation,
+                levels,
+            }),
+        ),
+        (
+            "SkyView",
+            rust_layout!(SkyView {
+                sun_direction,
+                observer_altitude_m,
+                limb_exponents,
+                horizon_elevation,
+                sun_angular_radius,
+                sun_visible,
+                panels,
+                table_size,
+                rows_below,
+                dome_rings,
+                dome_segments,
+                ground_pattern,
+                ground_tile_m,
+                padding,
+            }),
+        ),
+    ]
+}
+
+/// The structs in uniform and storage buffers of a module, those in arrays included.
+fn bound_structs(module: &Module) -> Vec<(String, StructLayout)> {
+    let is_buffer = |space: AddressSpace| matches!(space, AddressSpace::Uniform | AddressSpace::Storage { .. });
+    let variables = module.ir.global_variables.iter().filter(|(_, variable)| is_buffer(variable.space));
+    variables.filter_map(|(_, variable)| struct_of(&module.ir, variable.ty)).collect()
+}
+
+fn struct_of(ir: &naga::Module, handle: Handle<Type>) -> Option<(String, StructLayout)> {
+    let ty = &ir.types[handle];
+    match &ty.inner {
+        TypeInner::Array { base, .. } => struct_of(ir, *base),
+        TypeInner::Struct { members, span } => {
+            let members = members.iter().map(|m| (m.name.clone().unwrap_or_default(), m.offset)).collect();
+            Some((ty.name.clone().unwrap_or_default(), StructLayout { members, size: *span }))
+        }
+        _ => None,
+    }
+}
+
+/// Bound structs without a twin, or with one of another layout.
+fn strangers(module: &Module, twins: &[(&str, StructLayout)]) -> Vec<String> {
+    let fault = |(name, wgsl): (String, StructLayout)| match twins.iter().find(|(known, _)| *known == name) {
+        None => Some(format!("`{name}` has no twin in tests/shaders/layouts.rs")),
+        Some((_, rust)) if *rust != wgsl => Some(format!("`{name}`:\n  WGSL {wgsl:?}\n  Rust {rust:?}")),
+        Some(_) => None,
+    };
+    bound_structs(module).into_iter().filter_map(fault).collect()
+}
+
+#[test]
+fn every_struct_in_a_buffer_has_the_layout_of_its_rust_twin() {
+    let twins = twins();
+    assert_no_faults(|module| strangers(module, &twins), "host and shader disagree about these bytes");
+}
+
+#[test]
+fn every_twin_is_bound_by_some_shader() {
+    let bound: BTreeSet<String> = valid().flat_map(bound_structs).map(|(name, _)| name).collect();
+    for (name, _) in twins() {
+        assert!(bound.contains(name), "no shader binds `{name}`; remove its row");
+    }
+}
+
+#[test]
+fn planted_drift_of_a_struct_is_found() {
+    let twins = [("Sun", StructLayout::new(&[("direction", 0), ("cos_radius", 12)], 16))];
+    let sun = |members: &str| {
+        format!(
+            "struct Sun {{ {members} }}\n@group(0) @binding(0) var<storage, read> suns: array<Sun>;
+             @fragment fn fs() -> @location(0) vec4<f32> {{ return vec4<f32>(suns[0].direction, 1.0); }}"
+        )
+    };
+    let faults = |members: &str| faults_in(|module| strangers(module, &twins), &sun(members));
+    assert_eq!(faults("direction: vec3<f32>, cos_radius: f32"), Vec::<String>::new(), "the twin");
+    for drift in [
+        "direction: vec3<f32>, cos_angle: f32",
+        "cos_radius: f32, direction: vec3<f32>",
+        "direction: vec3<f32>, cos_radius: f32, normal_offset: f32",
+        "direction: vec3<f32>",
+    ] {
+        assert_eq!(faults(drift).len(), 1, "{drift}");
+    }
+    let other = faults_in(|module| strangers(module, &[]), &sun("direction: vec3<f32>"));
+    assert_eq!(other, ["`Sun` has no twin in tests/shaders/layouts.rs"], "a new struct");
+}
