@@ -51,13 +51,7 @@ pub(super) enum Pixels {
 impl Job<'_> {
     /// Draws the frame; if the device is lost, once more on a new one.
     pub(super) fn run(&self) -> Result<Frame, Failure> {
-        match self.attempt() {
-            Err(failure) if failure.is_lost_device() => {
-                self.progress.warn(&format!("{failure}; trying once more"));
-                self.attempt()
-            }
-            other => other,
-        }
+        twice(|| self.attempt(), |failure| self.progress.warn(&format!("{failure}; trying once more")))
     }
 
     fn attempt(&self) -> Result<Frame, Failure> {
@@ -110,6 +104,17 @@ impl Job<'_> {
     }
 }
 
+/// Tries again after a lost device, which may have been a moment's trouble of the driver, but not a third time.
+fn twice<T>(mut attempt: impl FnMut() -> Result<T, Failure>, warn: impl FnOnce(&Failure)) -> Result<T, Failure> {
+    match attempt() {
+        Err(failure) if failure.is_lost_device() => {
+            warn(&failure);
+            attempt()
+        }
+        other => other,
+    }
+}
+
 /// Precision of the frame: the app's own for its picture, more where the file keeps more.
 fn config(format: OutputFormat) -> RendererConfig {
     match format {
@@ -120,5 +125,44 @@ fn config(format: OutputFormat) -> RendererConfig {
             RendererConfig { frame: FrameFormat::Float, picture: PictureFormat::Sixteen }
         }
         OutputFormat::Exr(..) => RendererConfig { frame: FrameFormat::Float, picture: PictureFormat::Eight },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tyndall_gpu::GpuError;
+
+    use super::*;
+    use crate::Exit;
+
+    fn lost() -> Failure {
+        GpuError::DeviceLost { reason: "test".to_owned() }.into()
+    }
+
+    /// The outcome of two prepared attempts, and how many were made.
+    fn outcome(attempts: [Result<(), Failure>; 2]) -> (Result<(), Failure>, usize) {
+        let mut left = attempts.into_iter();
+        let result = twice(|| left.next().expect("no third attempt"), |_| {});
+        (result, 2 - left.len())
+    }
+
+    #[test]
+    fn a_lost_device_is_tried_once_more() {
+        let (result, made) = outcome([Err(lost()), Ok(())]);
+        assert!(result.is_ok() && made == 2, "{result:?} after {made}");
+    }
+
+    #[test]
+    fn a_device_lost_twice_ends_with_its_own_exit_code() {
+        let (result, _) = outcome([Err(lost()), Err(lost())]);
+        assert_eq!(result.expect_err("lost").exit(), Exit::DeviceLost, "both were lost");
+    }
+
+    #[test]
+    fn other_failures_and_success_are_final() {
+        let (result, made) = outcome([Err(GpuError::EmptyAdapterChoice.into()), Ok(())]);
+        assert!(result.is_err() && made == 1, "{result:?} after {made}");
+        let (result, made) = outcome([Ok(()), Err(lost())]);
+        assert!(result.is_ok() && made == 1, "{result:?} after {made}");
     }
 }

@@ -1,0 +1,8 @@
+//! The program `tyndall` as its users meet it: files, sentences and exit codes.
+
+mod outside;
+mod pictures;
+mod program;
+mod progress;
+mod refusals;
+mod tables;

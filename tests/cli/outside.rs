@@ -1,0 +1,54 @@
+//! Signals and faults from outside: nothing half-written, and the same bytes in the end.
+
+use crate::program::Place;
+
+#[test]
+fn a_lost_device_is_replaced_and_the_bytes_are_those_of_an_undisturbed_run() {
+    let words = ["render", "preset:low-sun", "-o", "a.exr", "--size", "96x64"];
+    let (calm, disturbed) = (Place::new(), Place::new());
+    calm.run(&words).succeeded();
+    let run = disturbed.run_with(&[("TYNDALL_FAULT", "device-lost@1")], &words).succeeded();
+    assert!(run.stderr.contains("warning: the graphics device was lost"), "{}", run.stderr);
+    assert!(calm.read("a.exr") == disturbed.read("a.exr"), "the second device draws the same picture");
+    assert_eq!(disturbed.files(), ["a.exr"], "no litter of the first try");
+}
+
+#[cfg(unix)]
+mod signals {
+    use std::io::{BufRead as _, BufReader};
+    use std::process::{Child, Command, Stdio};
+
+    use crate::program::Place;
+
+    /// A render that takes seconds on any machine, seen to have reached the frame.
+    fn start(place: &Place) -> Child {
+        let words = ["render", "preset:noon", "-o", "a.exr", "--size", "3000x3000", "--compression", "piz"];
+        let mut command = place.command(&[&words[..], &["--float", "--progress", "json"]].concat());
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
+        let stdout = child.stdout.take().expect("piped");
+        let mut lines = BufReader::new(stdout).lines().map_while(Result::ok);
+        assert!(lines.any(|line| line.contains("\"rendering\"")), "the frame is never reached");
+        child
+    }
+
+    fn ended_by(signal: &str) -> (Option<i32>, Vec<String>) {
+        let place = Place::new();
+        place.write("a.exr", "an older picture");
+        let mut child = start(&place);
+        let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().expect("kill runs");
+        assert!(sent.success(), "{signal} was not sent");
+        let code = child.wait().expect("it ends").code();
+        assert_eq!(place.read("a.exr"), b"an older picture", "{signal}: the older file is untouched");
+        (code, place.files())
+    }
+
+    #[test]
+    fn ctrl_c_leaves_no_partial_file() {
+        assert_eq!(ended_by("-INT"), (Some(130), vec!["a.exr".to_owned()]), "exit code, and no temporary file");
+    }
+
+    #[test]
+    fn termination_leaves_no_partial_file_and_says_that_the_work_can_be_repeated() {
+        assert_eq!(ended_by("-TERM"), (Some(75), vec!["a.exr".to_owned()]), "exit code, and no temporary file");
+    }
+}
