@@ -39,7 +39,15 @@ pub fn compose(name: &str) -> Result<Composed, ComposeError> {
     compose_with(name, &text, &library)
 }
 
-/// Composes a text that is not in the table; its imports are looked up in `files`, a table like [`FILES`].
+/// Composes a text that is no file; its imports are looked up where [`compose`] looks.
+///
+/// # Errors
+/// When an import is missing or malformed, or the imports form a cycle.
+pub fn compose_snippet(name: &str, text: &str) -> Result<Composed, ComposeError> {
+    compose_with(name, text, &Library::of_this_build())
+}
+
+/// Composes a text with imports from `files` alone, a table like [`FILES`].
 ///
 /// # Errors
 /// When an import is missing or malformed, or the imports form a cycle.
@@ -246,6 +254,15 @@ mod tests {
     fn an_unknown_entry_file_is_named() {
         let message = compose("sky/nope.wgsl").expect_err("no such file").to_string();
         assert!(message.starts_with("there is no shader file \"sky/nope.wgsl\""), "{message}");
+    }
+
+    #[test]
+    fn a_snippet_imports_from_the_table() {
+        for (name, _) in FILES {
+            let composed = compose_snippet("snippet.wgsl", &format!("// @import {name}\nfn mine() {{}}\n"));
+            let composed = composed.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(composed.locate(u32::MAX), ("snippet.wgsl", 2), "the snippet stands last");
+        }
     }
 
     #[test]

@@ -20,7 +20,7 @@ mod compose;
 mod error;
 mod files;
 
-pub use compose::{Composed, compose, compose_text};
+pub use compose::{Composed, compose, compose_snippet, compose_text};
 pub use error::ComposeError;
 pub use files::FILES;
 

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use tyndall_shaders::{Composed, FILES, compose, compose_text};
+use tyndall_shaders::{Composed, compose, compose_snippet};
 
 use crate::layout::StructLayout;
 use crate::{Gpu, GpuError};
@@ -25,12 +25,12 @@ impl Shader {
         Self::new(gpu, file, &compose(file)?)
     }
 
-    /// A shader from a text of which imports are looked up in [`tyndall_shaders::FILES`].
+    /// A shader from a text that is no file; it may import those of [`tyndall_shaders::FILES`].
     ///
     /// # Errors
     /// As [`Shader::load`]; lines of the text itself are those of `name`.
     pub fn from_source(gpu: &Gpu, name: &str, source: &str) -> Result<Self, GpuError> {
-        Self::new(gpu, name, &compose_text(name, source, FILES)?)
+        Self::new(gpu, name, &compose_snippet(name, source)?)
     }
 
     fn new(gpu: &Gpu, name: &str, composed: &Composed) -> Result<Self, GpuError> {
