@@ -1,0 +1,132 @@
+//! Everything of ours on the GPU: renderer, targets, timings. Made from the window's device and rebuilt from it.
+
+use std::{collections::VecDeque, time::Instant};
+
+use egui_wgpu::RenderState;
+use tyndall_gpu::{Gpu, GpuError, PassTiming};
+use tyndall_render::{FrameTarget, RenderError, Renderer, RendererConfig};
+use tyndall_scene::Scene;
+
+/// Frames whose timings are kept.
+pub(crate) const TIMED_FRAMES: usize = 120;
+
+/// Why there is no picture, in words, and what can be done about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Problem {
+    /// The reason.
+    pub(crate) text: String,
+    /// Whether the fault is the GPU's, and the renderer must be made anew.
+    pub(crate) rebuild: bool,
+    /// Whether the window's device is gone, which no renderer survives.
+    pub(crate) lost: bool,
+}
+
+impl From<RenderError> for Problem {
+    fn from(error: RenderError) -> Self {
+        let lost = matches!(error, RenderError::Gpu(GpuError::DeviceLost { .. }));
+        let rebuild = matches!(error, RenderError::Gpu(_) | RenderError::Configuration { .. });
+        let text = match &error {
+            RenderError::Scene(scene) => scene.to_string(),
+            other => other.to_string(),
+        };
+        Self { text, rebuild, lost }
+    }
+}
+
+impl From<GpuError> for Problem {
+    fn from(error: GpuError) -> Self {
+        RenderError::from(error).into()
+    }
+}
+
+/// Timings of one frame.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FrameTimings {
+    /// Each pass.
+    pub(crate) passes: Vec<PassTiming>,
+    /// Size of the picture.
+    pub(crate) size_px: [u32; 2],
+    /// View pixels along one side of a picture pixel.
+    pub(crate) divisor: u32,
+}
+
+impl FrameTimings {
+    /// All passes together.
+    pub(crate) fn total_ms(&self) -> f64 {
+        self.passes.iter().map(|pass| pass.ms).sum()
+    }
+}
+
+/// A renderer on the window's device.
+pub(crate) struct Engine {
+    /// The device with its budget and its state.
+    pub(crate) gpu: Gpu,
+    renderer: Renderer,
+    /// Timings of the last frames, the oldest first.
+    pub(crate) timings: VecDeque<FrameTimings>,
+    /// The frame whose timings are on their way.
+    timed: Option<([u32; 2], u32)>,
+    /// How long making the renderer took.
+    pub(crate) start_ms: f64,
+}
+
+impl Engine {
+    /// Makes a renderer.
+    pub(crate) fn new(state: &RenderState) -> Result<Self, Problem> {
+        let started = Instant::now();
+        let gpu = Gpu::from_parts(&state.adapter, state.device.clone(), state.queue.clone(), None);
+        let renderer = Renderer::new(&gpu, RendererConfig::default())?;
+        gpu.check()?;
+        let start_ms = started.elapsed().as_secs_f64() * 1e3;
+        Ok(Self { gpu, renderer, timings: VecDeque::new(), timed: None, start_ms })
+    }
+
+    /// A target for pictures of a size.
+    pub(crate) fn target(&self, size_px: [u32; 2]) -> Result<FrameTarget, Problem> {
+        Ok(FrameTarget::new(&self.gpu, size_px, RendererConfig::default())?)
+    }
+
+    /// Draws and submits; `divisor` goes into the timings.
+    pub(crate) fn draw(&mut self, scene: &Scene, target: &mut FrameTarget, divisor: u32) -> Result<(), Problem> {
+        // Recording is not waited for: the window's own frame follows in the same queue.
+        let _submission = self.renderer.render(&self.gpu, scene, target)?;
+        self.gpu.check()?;
+        self.timed = self.gpu.has_timestamps().then_some((target.size_px(), divisor));
+        Ok(())
+    }
+
+    /// Draws something that is not the view, as thumbnails are.
+    pub(crate) fn draw_aside(&mut self, scene: &Scene, target: &mut FrameTarget) -> Result<(), Problem> {
+        let _submission = self.renderer.render(&self.gpu, scene, target)?;
+        self.timed = None;
+        Ok(self.gpu.check()?)
+    }
+
+    /// The display picture of a target, waiting for it.
+    pub(crate) fn read(&self, target: &FrameTarget) -> Result<Vec<[u8; 4]>, Problem> {
+        Ok(target.read_picture8(&self.gpu)?)
+    }
+
+    /// Exposure of the last frame; waits for it.
+    pub(crate) fn read_ev100(&self) -> Result<f64, Problem> {
+        Ok(self.renderer.read_ev100(&self.gpu)?)
+    }
+
+    /// Whether timings are on their way.
+    pub(crate) fn awaits_timings(&self) -> bool {
+        self.timed.is_some()
+    }
+
+    /// Takes in timings that have arrived, without waiting; whether there were any.
+    pub(crate) fn poll_timings(&mut self) -> Result<bool, Problem> {
+        let Some((size_px, divisor)) = self.timed else { return Ok(false) };
+        self.gpu.poll()?;
+        let Some(passes) = self.renderer.poll_timings(&self.gpu)? else { return Ok(false) };
+        self.timed = None;
+        if self.timings.len() == TIMED_FRAMES {
+            self.timings.pop_front();
+        }
+        self.timings.push_back(FrameTimings { passes, size_px, divisor });
+        Ok(true)
+    }
+}

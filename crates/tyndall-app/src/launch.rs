@@ -1,0 +1,70 @@
+//! The window: which device it asks for, and what to say when there is none.
+
+use std::{process::ExitCode, sync::Arc};
+
+use eframe::{NativeOptions, Renderer};
+use egui::{ViewportBuilder, vec2};
+use egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, wgpu};
+use tyndall_gpu::{Gpu, GpuError, GpuOptions};
+
+use crate::{App, AppOptions};
+
+/// Identifies the program to the desktop and names the folder of what it stores.
+const APP_ID: &str = "tyndall";
+
+/// No graphics adapter; the command line program has the same code.
+const EXIT_NO_ADAPTER: u8 = 3;
+
+const WINDOW_PT: egui::Vec2 = vec2(1440.0, 900.0);
+const MIN_WINDOW_PT: egui::Vec2 = vec2(640.0, 420.0);
+
+/// Opens the window and returns when it is closed.
+#[must_use]
+pub fn run(mut options: AppOptions) -> ExitCode {
+    options.data_dir = options.data_dir.or_else(|| Some(eframe::storage_dir(APP_ID)?.join("recovery")));
+    let native = NativeOptions {
+        viewport: ViewportBuilder::default()
+            .with_app_id(APP_ID)
+            .with_title("Tyndall")
+            .with_inner_size(WINDOW_PT)
+            .with_min_inner_size(MIN_WINDOW_PT),
+        renderer: Renderer::Wgpu,
+        wgpu_options: wgpu_configuration(),
+        ..NativeOptions::default()
+    };
+    let result = eframe::run_native(APP_ID, native, Box::new(move |context| Ok(Box::new(App::new(context, options)))));
+    result.map_or_else(|error| explain(&error), |()| ExitCode::SUCCESS)
+}
+
+/// A device with the limits and the timestamps that the renderer wants.
+#[must_use]
+pub fn wgpu_configuration() -> WgpuConfiguration {
+    let setup = WgpuSetupCreateNew {
+        device_descriptor: Arc::new(|adapter| wgpu::DeviceDescriptor {
+            label: Some("tyndall"),
+            required_features: wgpu::Features::TIMESTAMP_QUERY & adapter.features(),
+            required_limits: Gpu::wanted_limits(adapter),
+            ..Default::default()
+        }),
+        ..WgpuSetupCreateNew::without_display_handle()
+    };
+    WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..WgpuConfiguration::default() }
+}
+
+/// One sentence on stderr, and the exit code.
+#[expect(clippy::print_stderr, reason = "there is no window to say it in")]
+fn explain(error: &eframe::Error) -> ExitCode {
+    let (sentence, code) = match error {
+        eframe::Error::Wgpu(_) => match Gpu::open(&GpuOptions::default()) {
+            Err(reason @ GpuError::NoAdapter { .. }) => (reason.to_string(), ExitCode::from(EXIT_NO_ADAPTER)),
+            Err(reason) => (format!("{error}: {reason}"), ExitCode::from(EXIT_NO_ADAPTER)),
+            Ok(_) => (format!("no adapter can show a window: {error}"), ExitCode::from(EXIT_NO_ADAPTER)),
+        },
+        eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => {
+            (format!("no window can be opened: {error}; `tyndall render` needs none"), ExitCode::FAILURE)
+        }
+        other => (other.to_string(), ExitCode::FAILURE),
+    };
+    eprintln!("tyndall-app: {sentence}");
+    code
+}

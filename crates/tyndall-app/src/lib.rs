@@ -1,0 +1,36 @@
+//! The Tyndall desktop program: a window in which a scene is edited and seen at once.
+//!
+//! The scene is a [`tyndall_scene::SceneFile`] in a document with undo history; the panels change it through the
+//! parameters' declarations alone; the viewport draws it by [`tyndall_render::Renderer`] into a texture that egui shows,
+//! and only when something has changed. Renders to files are child processes of the command line program.
+//!
+//! [`run`] opens the window. [`App`] is the program without one, which the tests drive through its accessible names.
+
+mod action;
+mod app;
+mod banner;
+mod commands;
+mod document;
+mod engine;
+mod file_dialog;
+mod jobs;
+mod launch;
+mod layout;
+mod logging;
+mod menu;
+mod modal;
+mod navigation;
+mod panels;
+mod preview;
+mod recent;
+mod recovery;
+mod relevance;
+mod stage;
+mod theme;
+mod viewport;
+mod workbench;
+
+pub use app::{App, AppOptions};
+pub use launch::{run, wgpu_configuration};
+pub use logging::{LogBuffer, LogEntry};
+pub use panels::row::input_name;

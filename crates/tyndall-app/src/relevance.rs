@@ -1,0 +1,110 @@
+//! Which parameters have no effect at present, and why: the app shows those disabled.
+
+use tyndall_scene::{ExposureMode, Scene, SkyMode, SunPosition};
+
+/// Why a parameter changes nothing in this scene; `None` when it does.
+pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
+    match (group, name) {
+        ("sun", name) => sun(scene, name),
+        ("atmosphere", name) => atmosphere(scene, name),
+        ("film", "ev100") if scene.film.exposure == ExposureMode::Auto => {
+            Some("The exposure follows the picture; set Exposure to manual.")
+        }
+        ("ground", "tile_m") if scene.ground.pattern.name() == "plain" => {
+            Some("The ground is plain; set Pattern to checker.")
+        }
+        ("sky", "dome_rings" | "dome_segments") if scene.sky.mode != SkyMode::VertexDome => {
+            Some("The sky is computed at every pixel; set Mode to vertex-dome.")
+        }
+        _ => None,
+    }
+}
+
+fn sun(scene: &Scene, name: &str) -> Option<&'static str> {
+    let by_date = scene.sun.position == SunPosition::Date;
+    match name {
+        "elevation_deg" | "azimuth_deg" if by_date => {
+            Some("Date, time and place say where the sun stands; set Position to angles.")
+        }
+        "year" | "month" | "day" | "time_h" | "utc_offset_h" | "latitude_deg" | "longitude_deg" if !by_date => {
+            Some("The angles say where the sun stands; set Position to date.")
+        }
+        "limb_darkening" if !scene.sun.disc => Some("The disc is not drawn; switch Disc on."),
+        _ => None,
+    }
+}
+
+fn atmosphere(scene: &Scene, name: &str) -> Option<&'static str> {
+    let air = &scene.atmosphere;
+    let none = |amount: f64| amount <= 0.0;
+    match name {
+        "air_scale_height_km" | "air_model" if none(air.air_density) => Some("There is no air; raise Air density."),
+        "aerosol_angstrom" | "aerosol_albedo" | "aerosol_asymmetry" | "aerosol_scale_height_km" | "aerosol_phase"
+            if none(air.aerosol_optical_depth) =>
+        {
+            Some("There is no aerosol; raise Aerosol optical depth.")
+        }
+        "ozone_altitude_km" | "ozone_half_width_km" if none(air.ozone_du) => Some("There is no ozone; raise Ozone."),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn either_the_angles_or_the_date_place_the_sun() {
+        let mut scene = Scene::default();
+        assert!(no_effect(&scene, "sun", "elevation_deg").is_none(), "by angles");
+        assert!(no_effect(&scene, "sun", "latitude_deg").is_some(), "by angles");
+        scene.sun.position = SunPosition::Date;
+        assert!(no_effect(&scene, "sun", "elevation_deg").is_some(), "by date");
+        assert!(no_effect(&scene, "sun", "latitude_deg").is_none(), "by date");
+    }
+
+    #[test]
+    fn what_switches_others_is_never_switched_off_itself() {
+        let mut scene = Scene::default();
+        scene.atmosphere.air_density = 0.0;
+        scene.atmosphere.aerosol_optical_depth = 0.0;
+        scene.atmosphere.ozone_du = 0.0;
+        scene.sun.disc = false;
+        for (group, name) in [
+            ("sun", "position"),
+            ("sun", "disc"),
+            ("atmosphere", "air_density"),
+            ("atmosphere", "aerosol_optical_depth"),
+            ("atmosphere", "ozone_du"),
+            ("film", "exposure"),
+            ("film", "compensation_ev"),
+            ("ground", "pattern"),
+            ("sky", "mode"),
+        ] {
+            assert_eq!(no_effect(&scene, group, name), None, "{group}.{name}");
+        }
+    }
+
+    #[test]
+    fn every_named_parameter_exists() {
+        let scene = Scene::default();
+        let named = [
+            "film.ev100",
+            "ground.tile_m",
+            "sky.dome_rings",
+            "sky.dome_segments",
+            "sun.year",
+            "sun.month",
+            "sun.day",
+            "sun.time_h",
+            "sun.utc_offset_h",
+            "sun.latitude_deg",
+            "sun.longitude_deg",
+        ];
+        for path in named {
+            let (group, name) = path.split_once('.').unwrap();
+            assert!(scene.get(path).is_ok(), "{path} is not a parameter");
+            assert!(no_effect(&scene, group, name).is_some(), "{path} has an effect in a new scene");
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! The picture in the viewport: drawn when the scene or the size has changed, coarser while something moves, in full
+//! resolution once it rests, and not at all otherwise.
+
+use std::time::Duration;
+
+use egui::TextureId;
+use egui_wgpu::{RenderState, wgpu};
+use tyndall_render::FrameTarget;
+use tyndall_scene::{ImageParams, Scene};
+
+use crate::{
+    engine::{Engine, Problem},
+    preview::{Preview, reduced},
+};
+
+/// Rest after which a preview is replaced by the full picture.
+const REST_S: f64 = 0.15;
+
+/// How often the window asks for timings that are on their way, and how many times.
+const TIMINGS_EVERY: Duration = Duration::from_millis(40);
+const TIMINGS_TRIES: u32 = 50;
+
+/// What the picture depends on.
+#[derive(Clone, Debug, PartialEq)]
+struct Wanted {
+    scene: Scene,
+    view_px: [u32; 2],
+}
+
+/// Targets, the texture that egui shows, and what was drawn last.
+pub(crate) struct Stage {
+    state: RenderState,
+    engine: Result<Engine, Problem>,
+    /// Target in full resolution, and that of previews.
+    targets: [Option<FrameTarget>; 2],
+    texture: Option<TextureId>,
+    /// What was drawn last, or tried.
+    tried: Option<Wanted>,
+    /// Which of the targets is shown.
+    shown: Option<usize>,
+    /// Why the picture shown is not that of the scene.
+    problem: Option<Problem>,
+    preview: Preview,
+    refine_at_s: Option<f64>,
+    timings_tries: u32,
+    ev100: Option<f64>,
+    frames: u64,
+}
+
+impl Stage {
+    /// A stage on the window's device.
+    pub(crate) fn new(state: RenderState) -> Self {
+        let engine = Engine::new(&state);
+        let problem = engine.as_ref().err().cloned();
+        Self {
+            state,
+            engine,
+            targets: [None, None],
+            texture: None,
+            tried: None,
+            shown: None,
+            problem,
+            preview: Preview::default(),
+            refine_at_s: None,
+            timings_tries: 0,
+            ev100: None,
+            frames: 0,
+        }
+    }
+
+    /// The renderer, unless it could not be made.
+    pub(crate) fn engine(&self) -> Option<&Engine> {
+        self.engine.as_ref().ok()
+    }
+
+    /// The renderer, to draw something else with it.
+    pub(crate) fn engine_mut(&mut self) -> Option<&mut Engine> {
+        self.engine.as_mut().ok()
+    }
+
+    /// The window's graphics.
+    pub(crate) fn state(&self) -> &RenderState {
+        &self.state
+    }
+
+    /// Why the picture is not that of the scene.
+    pub(crate) fn problem(&self) -> Option<&Problem> {
+        self.problem.as_ref()
+    }
+
+    /// Takes note of a problem that something else has met.
+    pub(crate) fn report(&mut self, problem: Problem) {
+        tracing::error!("{}", problem.text);
+        self.problem = Some(problem);
+    }
+
+    /// Texture and size of the picture, when there is one.
+    pub(crate) fn picture(&self) -> Option<(TextureId, [u32; 2])> {
+        Some((self.texture?, self.shown_target()?.size_px()))
+    }
+
+    /// Exposure of the picture, when it has been read.
+    pub(crate) fn ev100(&self) -> Option<f64> {
+        self.ev100
+    }
+
+    /// Whether the window will wake up for the timings of the picture.
+    pub(crate) fn awaits_timings(&self) -> bool {
+        self.timings_tries > 0 && self.engine().is_some_and(Engine::awaits_timings)
+    }
+
+    /// Frames drawn so far.
+    pub(crate) fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// The picture shown, row 0 on top.
+    pub(crate) fn read(&self) -> Result<Vec<[u8; 4]>, Problem> {
+        let none = || Problem { text: "there is no picture yet".to_owned(), rebuild: false, lost: false };
+        match (&self.engine, self.shown_target()) {
+            (Ok(engine), Some(target)) => engine.read(target),
+            (Err(problem), _) => Err(problem.clone()),
+            (_, None) => Err(none()),
+        }
+    }
+
+    /// Drops everything on the GPU and makes it anew.
+    pub(crate) fn rebuild(&mut self) {
+        self.targets = [None, None];
+        (self.tried, self.shown, self.refine_at_s) = (None, None, None);
+        // The old one gives its memory back first.
+        self.engine = Err(Problem { text: String::new(), rebuild: true, lost: false });
+        self.engine = Engine::new(&self.state);
+        self.problem = self.engine.as_ref().err().cloned();
+    }
+
+    /// Draws what is needed for a view of this size. `moving` is whether the user is at it, by pointer or keyboard.
+    pub(crate) fn present(&mut self, ctx: &egui::Context, scene: &Scene, view_px: [u32; 2], moving: bool) {
+        if self.problem.as_ref().is_some_and(|problem| problem.rebuild) {
+            return;
+        }
+        let now_s = ctx.input(|input| input.time);
+        let wanted = Wanted { scene: picture_of(scene), view_px };
+        if self.tried.as_ref() != Some(&wanted) {
+            let divisor = if moving { self.preview.divisor(view_px) } else { 1 };
+            self.refine_at_s = (divisor > 1).then_some(now_s + REST_S);
+            self.tried = Some(wanted);
+            self.draw(scene, view_px, divisor);
+        } else if self.refine_at_s.is_some_and(|at_s| now_s >= at_s) {
+            self.refine_at_s = None;
+            self.draw(scene, view_px, 1);
+        }
+        if let Some(at_s) = self.refine_at_s {
+            ctx.request_repaint_after(Duration::from_secs_f64((at_s - now_s).max(0.0)));
+        }
+        self.await_timings(ctx);
+    }
+
+    /// Whether the picture of this scene has been drawn or tried.
+    pub(crate) fn is_up_to_date(&self, scene: &Scene) -> bool {
+        let rebuild = self.problem.as_ref().is_some_and(|problem| problem.rebuild);
+        rebuild || self.tried.as_ref().is_none_or(|tried| tried.scene == picture_of(scene))
+    }
+
+    fn shown_target(&self) -> Option<&FrameTarget> {
+        self.targets[self.shown?].as_ref()
+    }
+
+    fn draw(&mut self, scene: &Scene, view_px: [u32; 2], divisor: u32) {
+        self.frames += 1;
+        self.problem = self.try_draw(scene, view_px, divisor).err();
+        if let Some(problem) = &self.problem {
+            tracing::error!("{}", problem.text);
+        }
+    }
+
+    fn try_draw(&mut self, scene: &Scene, view_px: [u32; 2], divisor: u32) -> Result<(), Problem> {
+        let Ok(engine) = &mut self.engine else { return Ok(()) };
+        let slot = usize::from(divisor > 1);
+        let size_px = reduced(view_px, divisor);
+        if self.targets[slot].as_ref().is_none_or(|target| target.size_px() != size_px) {
+            // The old one gives its memory back first.
+            self.targets[slot] = None;
+            self.targets[slot] = Some(engine.target(size_px)?);
+            self.shown = self.shown.filter(|shown| *shown != slot);
+        }
+        let Some(target) = &mut self.targets[slot] else { return Ok(()) };
+        engine.draw(scene, target, divisor)?;
+        self.timings_tries = TIMINGS_TRIES;
+        if self.shown != Some(slot) {
+            self.shown = Some(slot);
+            self.show(slot);
+        }
+        Ok(())
+    }
+
+    /// Gives egui the texture of a target; always under the same name, as every new one would stay in memory.
+    fn show(&mut self, slot: usize) {
+        let Some(target) = &self.targets[slot] else { return };
+        let (device, view, filter) = (&self.state.device, target.picture().view(), wgpu::FilterMode::Linear);
+        let mut painter = self.state.renderer.write();
+        match self.texture {
+            Some(texture) => painter.update_egui_texture_from_wgpu_texture(device, view, filter, texture),
+            None => self.texture = Some(painter.register_native_texture(device, view, filter)),
+        }
+    }
+
+    /// Timings come a little after the picture; until then the window wakes up a few times more.
+    fn await_timings(&mut self, ctx: &egui::Context) {
+        if !self.awaits_timings() {
+            return;
+        }
+        let Ok(engine) = &mut self.engine else { return };
+        match engine.poll_timings() {
+            Ok(false) => {
+                self.timings_tries -= 1;
+                ctx.request_repaint_after(TIMINGS_EVERY);
+            }
+            Ok(true) => {
+                if let Some(newest) = engine.timings.back() {
+                    self.preview.learn(newest.divisor, newest.size_px, newest.total_ms());
+                }
+                // The frame is done, so that reading does not wait for it.
+                self.ev100 = engine.read_ev100().ok();
+                ctx.request_repaint();
+            }
+            Err(problem) => self.report(problem),
+        }
+    }
+}
+
+/// The scene less what the viewport's picture does not depend on.
+fn picture_of(scene: &Scene) -> Scene {
+    Scene { title: String::new(), description: String::new(), image: ImageParams::default(), ..scene.clone() }
+}

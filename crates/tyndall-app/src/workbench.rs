@@ -1,0 +1,123 @@
+//! What the panels work on, and each panel in its tile.
+
+use egui::{Frame, Margin, Ui, WidgetText};
+use egui_tiles::{Behavior, SimplificationOptions, TileId, UiResponse};
+use tracing::Level;
+use tyndall_scene::Preset;
+
+use crate::{
+    document::Document,
+    file_dialog::FileDialogs,
+    layout::Pane,
+    logging::LogBuffer,
+    panels::{
+        camera,
+        export::{self, ExportOptions, Exports},
+        gallery::Gallery,
+        log, parameters, timings,
+    },
+    stage::Stage,
+    viewport::{self, ViewportOptions},
+};
+
+/// Room around the contents of a panel.
+const MARGIN: Margin = Margin::same(10);
+
+/// Smallest side of a tile.
+const MIN_TILE_PT: f32 = 80.0;
+
+/// Everything that more than one panel needs, and what the panels remember.
+pub(crate) struct Workbench {
+    pub(crate) document: Document,
+    pub(crate) stage: Option<Stage>,
+    pub(crate) gallery: Gallery,
+    pub(crate) exports: Exports,
+    pub(crate) dialogs: FileDialogs,
+    pub(crate) log: LogBuffer,
+    pub(crate) viewport: ViewportOptions,
+    pub(crate) export: ExportOptions,
+    /// The preset that was clicked in this frame.
+    pub(crate) chosen: Option<Preset>,
+    filter: String,
+    level: Level,
+}
+
+impl Workbench {
+    /// A workbench with a new document.
+    pub(crate) fn new(stage: Option<Stage>, log: LogBuffer, viewport: ViewportOptions, export: ExportOptions) -> Self {
+        Self {
+            document: Document::new(),
+            stage,
+            gallery: Gallery::default(),
+            exports: Exports::default(),
+            dialogs: FileDialogs::default(),
+            log,
+            viewport,
+            export,
+            chosen: None,
+            filter: String::new(),
+            level: Level::INFO,
+        }
+    }
+
+    /// The viewport alone.
+    pub(crate) fn show_viewport(&mut self, ui: &mut Ui) {
+        match &mut self.stage {
+            Some(stage) => viewport::show(ui, stage, self.document.scene_mut(), &self.viewport),
+            None => drop(ui.label("This window has no graphics device.")),
+        }
+    }
+
+    fn show_pane(&mut self, ui: &mut Ui, pane: Pane) {
+        let Self { document, stage, exports, dialogs, .. } = self;
+        match pane {
+            Pane::Viewport => self.show_viewport(ui),
+            Pane::Parameters => parameters::show(ui, document.scene_mut(), &mut self.filter),
+            Pane::Camera => camera::show(ui, document.scene_mut(), &mut self.viewport),
+            Pane::Export => export::show(ui, document, &mut self.export, exports, dialogs),
+            Pane::Gallery => self.chosen = stage.as_mut().and_then(|stage| self.gallery.show(ui, stage)),
+            Pane::Timings => {
+                let frames = stage.as_ref().map_or(0, Stage::frames);
+                timings::show(ui, stage.as_ref().and_then(Stage::engine), frames);
+            }
+            Pane::Log => log::show(ui, &self.log, &mut self.level),
+        }
+    }
+}
+
+impl Behavior<Pane> for Workbench {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
+        ui.push_id(*pane, |ui| {
+            if *pane == Pane::Viewport {
+                self.show_pane(ui, *pane);
+            } else {
+                Frame::new().inner_margin(MARGIN).show(ui, |ui| self.show_pane(ui, *pane));
+            }
+        });
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
+        pane.title().into()
+    }
+
+    fn gap_width(&self, _style: &egui::Style) -> f32 {
+        4.0
+    }
+
+    fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
+        28.0
+    }
+
+    fn tab_title_spacing(&self, _visuals: &egui::Visuals) -> f32 {
+        14.0
+    }
+
+    fn min_size(&self) -> f32 {
+        MIN_TILE_PT
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SimplificationOptions { all_panes_must_have_tabs: true, ..SimplificationOptions::default() }
+    }
+}
