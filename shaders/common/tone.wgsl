@@ -6,21 +6,21 @@ fn tone_srgb_encode(linear: f32) -> f32 {
     return select(1.055 * pow(x, 1.0 / 2.4) - 0.055, 12.92 * x, x <= 0.0031308);
 }
 
+// Scales of the hyperbola v / (1 + v^p)^(1/p) with which the curve reaches 0 and 1 exactly:
+// ((s r)^-p ((s r / y)^p - 1))^(-1/p) for slope s = 2, run r to the end of the range, rise y = 0.5, powers 3 and 3.25.
+const TONE_AGX_TOE_SCALE: f32 = 0.512277383;
+const TONE_AGX_SHOULDER_SCALE: f32 = 0.541464154;
+
 /// The AgX curve on log-encoded x in 0..1: a slope of 2 through the pivot, bent to 0 and 1 with powers 3 and 3.25.
 /// Sobotka's AgX: pivot 10/16.5 to 0.5.
 fn tone_agx_curve(x: f32) -> f32 {
     let pivot_x = 0.6060606;
-    let pivot_y = 0.5;
-    let slope = 2.0;
     let shoulder = x >= pivot_x;
     let power = select(3.0, 3.25, shoulder);
-    let run = select(pivot_x, 1.0 - pivot_x, shoulder);
-    let rise = select(pivot_y, 1.0 - pivot_y, shoulder);
-    // Scale of the hyperbola v / (1 + v^p)^(1/p) that reaches the end of the range exactly.
-    let scale = pow(pow(slope * run, -power) * (pow(slope * run / rise, power) - 1.0), -1.0 / power);
-    let v = slope * abs(x - pivot_x) / scale;
+    let scale = select(TONE_AGX_TOE_SCALE, TONE_AGX_SHOULDER_SCALE, shoulder);
+    let v = 2.0 * abs(x - pivot_x) / scale;
     let bent = scale * v / pow(1.0 + pow(v, power), 1.0 / power);
-    return select(pivot_y - bent, pivot_y + bent, shoulder);
+    return 0.5 + select(-bent, bent, shoulder);
 }
 
 /// AgX: desaturating matrix, logarithm over 16.5 stops, curve, and the display power of 2.2 already in the curve.
@@ -40,6 +40,13 @@ fn tone_agx(colour: vec3<f32>) -> vec3<f32> {
         vec3<f32>(-0.0990297440797205, -0.0989611768448433, 1.15107367264116),
     );
     return clamp(outset * curved, vec3<f32>(0.0), vec3<f32>(1.0));
+}
+
+/// A look on display values, as the ASC colour decision list has it: power, then saturation about Rec.709 luma.
+fn tone_look(shown: vec3<f32>, contrast: f32, saturation: f32) -> vec3<f32> {
+    let bent = pow(max(shown, vec3<f32>(0.0)), vec3<f32>(contrast));
+    let luma = dot(bent, vec3<f32>(0.2126, 0.7152, 0.0722));
+    return clamp(luma + (bent - luma) * saturation, vec3<f32>(0.0), vec3<f32>(1.0));
 }
 
 /// ACES: the reference rendering and sRGB output transforms as a rational curve between two matrices, fitted by S. Hill;

@@ -28,6 +28,10 @@ fn develop_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4
     let pixel = vec2<u32>(position.xy);
     let exposed = textureLoad(develop_frame, pixel, 0).rgb * develop_gain[0];
     var shown = develop_tone(exposed);
+    // The neutral look costs nothing.
+    if (frame.contrast != 1.0 || frame.saturation != 1.0) {
+        shown = tone_look(shown, frame.contrast, frame.saturation);
+    }
     if (frame.dither == 1u) {
         let noise = vec3<f32>(noise_triangular(pixel, 0u), noise_triangular(pixel, 1u), noise_triangular(pixel, 2u));
         shown += noise / frame.levels;

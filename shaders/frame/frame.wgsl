@@ -17,6 +17,10 @@ struct Frame {
     manual_gain: f32,          // 1, exposed value per frame value when it does not
     compensation: f32,         // 1, factor on the metered exposure
     levels: f32,               // steps of the output per unit: 255, or 65535
+    contrast: f32,             // 1, exponent on the display value
+    saturation: f32,           // 1, factor on the distance from grey
+    padding0: f32,
+    padding1: f32,
 }
 @group(1) @binding(0) var<uniform> frame: Frame;
 

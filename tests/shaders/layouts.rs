@@ -54,6 +54,10 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
                 manual_gain,
                 compensation,
                 levels,
+                contrast,
+                saturation,
+                padding0,
+                padding1,
             }),
         ),
         (

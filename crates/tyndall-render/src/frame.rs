@@ -28,6 +28,10 @@ pub mod gpu_data {
         pub manual_gain: f32,
         pub compensation: f32,
         pub levels: f32,
+        pub contrast: f32,
+        pub saturation: f32,
+        pub padding0: f32,
+        pub padding1: f32,
     }
 }
 
@@ -65,5 +69,9 @@ pub fn frame_uniform(scene: &Scene, size_px: [u32; 2], picture: PictureFormat) -
             PictureFormat::Eight => 255.0,
             PictureFormat::Sixteen => 65_535.0,
         },
+        contrast: film.contrast as f32,
+        saturation: film.saturation as f32,
+        padding0: 0.0,
+        padding1: 0.0,
     })
 }

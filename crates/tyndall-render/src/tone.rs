@@ -55,6 +55,14 @@ pub fn tone_agx(colour: [f64; 3]) -> [f64; 3] {
     multiply(&AGX_OUTSET, curved).map(|c| c.clamp(0.0, 1.0))
 }
 
+/// A look on display values: power, then saturation about Rec.709 luma; ASC colour decision list.
+#[must_use]
+pub fn tone_look(shown: [f64; 3], contrast: f64, saturation: f64) -> [f64; 3] {
+    let bent = shown.map(|c| c.max(0.0).powf(contrast));
+    let luma = 0.2126 * bent[0] + 0.7152 * bent[1] + 0.0722 * bent[2];
+    bent.map(|c| (luma + (c - luma) * saturation).clamp(0.0, 1.0))
+}
+
 /// ACES of exposed linear Rec.709: display values, linear.
 #[must_use]
 pub fn tone_aces(colour: [f64; 3]) -> [f64; 3] {
@@ -110,6 +118,16 @@ mod tests {
             before = r;
         }
         assert!(before > 0.9, "four times white is nearly white: {before}");
+    }
+
+    #[test]
+    fn a_neutral_look_changes_nothing_and_no_saturation_is_grey() {
+        let colour = [0.2, 0.5, 0.9];
+        for (got, want) in tone_look(colour, 1.0, 1.0).into_iter().zip(colour) {
+            assert!((got - want).abs() < 1e-12, "{got} {want}");
+        }
+        let [r, g, b] = tone_look(colour, 1.3, 0.0);
+        assert!((r - g).abs() < 1e-12 && (g - b).abs() < 1e-12, "{r} {g} {b}");
     }
 
     #[test]

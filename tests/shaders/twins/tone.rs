@@ -22,6 +22,10 @@ twins! { "common/tone.wgsl";
         "tone_agx(x.xyz).y" => |x| tone::tone_agx(rgb(x))[1],
         "tone_agx(x.xyz).z" => |x| tone::tone_agx(rgb(x))[2],
     }
+    tone_look in [-0.1..=1.0, 0.5..=2.0, 0.0..=2.0, NONE], within Tolerance::absolute(3e-6), {
+        "tone_look(vec3<f32>(x.x, 0.5, 1.0 - x.x), x.y, x.z).x" => |x| tone::tone_look([x[0], 0.5, 1.0 - x[0]], x[1], x[2])[0],
+        "tone_look(vec3<f32>(x.x, 0.5, 1.0 - x.x), x.y, x.z).z" => |x| tone::tone_look([x[0], 0.5, 1.0 - x[0]], x[1], x[2])[2],
+    }
     tone_aces in [-0.1..=16.0, -0.1..=16.0, -0.1..=16.0, NONE], within Tolerance::absolute(3e-6), {
         "tone_aces(x.xyz).x" => |x| tone::tone_aces(rgb(x))[0],
         "tone_aces(x.xyz).y" => |x| tone::tone_aces(rgb(x))[1],

@@ -35,6 +35,10 @@ params! {
         compensation_ev: f64 = 0.0, ["EV", -10.0..=10.0, Linear], "ISO 2720:1974";
         /// Curve from scene light to display light.
         tone_map: ToneMap = ToneMap::AgX, "Sobotka 2022; Academy Color Encoding System";
+        /// Exponent on the display values after the curve; above 1 darkens shadows.
+        contrast: f64 = 1.0, ["1", 0.5..=2.0, Linear], "ASC colour decision list, power";
+        /// Strength of colours after the curve; 0 is grey.
+        saturation: f64 = 1.0, ["1", 0.0..=2.0, Linear], "ASC colour decision list, saturation";
         /// Noise of half a level that keeps smooth skies from showing bands in 8-bit pictures.
         dither: bool = true, "Roberts 1962";
     }
