@@ -1,0 +1,114 @@
+//! Times frames: first, still, and with a moving sun, for each preset and size, on one adapter.
+
+mod scene_run;
+
+use anyhow::{Result, ensure};
+use clap::Parser;
+use serde_json::{Map, Value, json};
+use tyndall_benches::{CommonOptions, JsonLines, Samples, is_smoke, print_line};
+use tyndall_gpu::{AdapterChoice, AdapterReport, Gpu, GpuOptions};
+use tyndall_scene::presets;
+
+use scene_run::{PassTimes, SceneRun, Series};
+
+/// Frame timings of Tyndall.
+#[derive(Debug, Parser)]
+#[command(name = "frames")]
+struct Options {
+    /// auto, software, an index or a part of the adapter's name
+    #[arg(long, default_value_t)]
+    adapter: AdapterChoice,
+    /// Frames of each series
+    #[arg(long, default_value_t = 40, value_parser = clap::value_parser!(u16).range(1..))]
+    frames: u16,
+    #[command(flatten)]
+    common: CommonOptions,
+}
+
+fn main() -> Result<()> {
+    let options = Options::parse();
+    let smoke = is_smoke(&options.common);
+    let sizes_px: &[[u32; 2]] = if smoke { &[[32, 24]] } else { &[[640, 480], [1280, 720]] };
+    let frames = if smoke { 1 } else { options.frames };
+    let gpu = Gpu::open(&GpuOptions { adapter: options.adapter, max_memory_bytes: None })?;
+    let mut json_lines = JsonLines::create(options.common.json.as_deref())?;
+    print_line(&heading(gpu.adapter(), frames))?;
+
+    let mut presets = presets();
+    presets.retain(|preset| preset.name.contains(&options.common.filter));
+    ensure!(!presets.is_empty(), "no preset has {:?} in its name", options.common.filter);
+    if smoke {
+        presets.truncate(1);
+    }
+    for preset in presets {
+        let scene = preset.load()?.scene;
+        for size_px in sizes_px {
+            let run = SceneRun::measure(&gpu, &scene, *size_px, frames)?;
+            print_line(&row(preset.name, *size_px, &run))?;
+            print_line(&passes("still", &run.still.passes))?;
+            print_line(&passes("sun moves", &run.moving.passes))?;
+            json_lines.write(&figures(gpu.adapter(), preset.name, *size_px, &run))?;
+        }
+    }
+    Ok(())
+}
+
+fn heading(adapter: &AdapterReport, frames: u16) -> String {
+    format!(
+        "{adapter}, {} CPU threads; milliseconds; series of {frames} frames\n{:<14} {:>9} | {:>7} {:>7} | {:>7} {:>7} | \
+         {:>9} {:>7}",
+        std::thread::available_parallelism().map_or(1, usize::from),
+        "scene",
+        "size",
+        "first",
+        "tables",
+        "still",
+        "p95",
+        "sun moves",
+        "p95"
+    )
+}
+
+fn row(name: &str, [width_px, height_px]: [u32; 2], run: &SceneRun) -> String {
+    let size = format!("{width_px}x{height_px}");
+    let (still, moving) = (&run.still.wall, &run.moving.wall);
+    format!(
+        "{name:<14} {size:>9} | {:>7.1} {:>7.1} | {:>7.2} {:>7.2} | {:>9.2} {:>7.2}",
+        run.first_ms,
+        run.first_tables_ms,
+        still.median_ms(),
+        still.p95_ms(),
+        moving.median_ms(),
+        moving.p95_ms()
+    )
+}
+
+fn passes(series: &str, passes: &PassTimes) -> String {
+    let texts: Vec<_> = passes.iter().map(|(name, samples)| format!("{name} {:.2}", samples.median_ms())).collect();
+    let texts = if texts.is_empty() { "not timed by this adapter".to_owned() } else { texts.join(", ") };
+    format!("    GPU, {series}: {texts}")
+}
+
+fn figures(adapter: &AdapterReport, name: &str, size_px: [u32; 2], run: &SceneRun) -> Value {
+    json!({
+        "bench": "frames",
+        "version": env!("CARGO_PKG_VERSION"),
+        "adapter": adapter.to_string(),
+        "scene": name,
+        "size_px": size_px,
+        "first_ms": run.first_ms,
+        "first_tables_ms": run.first_tables_ms,
+        "still": series(&run.still),
+        "sun_moves": series(&run.moving),
+    })
+}
+
+fn series(series: &Series) -> Value {
+    let passes: Map<String, Value> =
+        series.passes.iter().map(|(name, samples)| ((*name).to_owned(), statistics(samples))).collect();
+    json!({ "wall": statistics(&series.wall), "passes": passes })
+}
+
+fn statistics(samples: &Samples) -> Value {
+    json!({ "median_ms": samples.median_ms(), "p95_ms": samples.p95_ms() })
+}
