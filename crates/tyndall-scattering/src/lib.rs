@@ -10,7 +10,9 @@
 //! the same of the sun, `nu` = cosine between the two. Wavelengths are those of the [`atmosphere::Atmosphere`]; the
 //! product uses the eight of [`tyndall_core::spectrum`].
 //!
-//! Not done here: scattering of second and higher orders, refraction, polarisation.
+//! Light scattered more than once is the business of [`orders`]: one table for all suns, marched like the others.
+//!
+//! Not done here: refraction, polarisation.
 
 pub mod air;
 pub mod atmosphere;
@@ -23,6 +25,7 @@ pub mod irradiance_table;
 pub mod march;
 pub mod medium;
 pub mod optical_length;
+pub mod orders;
 pub mod ozone;
 pub mod params;
 pub mod phase;

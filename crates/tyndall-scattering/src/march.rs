@@ -52,20 +52,10 @@ impl Marcher {
     pub fn scattered_parts_to(&self, ray: &Ray, length_m: f64) -> [Spectrum; SCATTERER_COUNT] {
         let path = PathMap::new(self.atmosphere.planet_radius_m, ray, length_m);
         let mut sum = Sum { columns: [0.0; MEDIUM_COUNT], parts: [[0.0; WAVELENGTH_COUNT]; SCATTERER_COUNT] };
-        for piece in path.breaks.windows(2) {
-            let [from, to] = [piece[0], piece[1]];
-            if to <= from {
-                continue;
-            }
-            let lit = !path.is_shadowed(0.5 * (from + to));
-            let panels = (self.panels as f64 * path.share(from, to)).ceil().max(1.0);
-            let width = (to - from) / panels;
-            let mut x = from;
-            while x < to - 0.5 * width {
-                self.add_panel(ray, &path, (x, width), lit, &mut sum);
-                x += width;
-            }
-        }
+        path.for_each_panel(self.panels, |x, width| {
+            let lit = !path.is_shadowed(x + 0.5 * width);
+            self.add_panel(ray, &path, (x, width), lit, &mut sum);
+        });
         sum.parts
     }
 
@@ -116,7 +106,7 @@ struct Sum {
 }
 
 /// The variable x of a ray: t = lowest + x |x| times the distance to the ray's start (x < 0) or end (x > 0).
-struct PathMap {
+pub(crate) struct PathMap {
     lowest_m: f64,
     length_m: f64,
     shadow: [f64; 2],
@@ -128,21 +118,45 @@ impl PathMap {
     const BREAKS: usize = 5;
 
     fn new(radius_m: f64, ray: &Ray, length_m: f64) -> Self {
-        let lowest_m = (-(radius_m + ray.h_m) * ray.mu).clamp(0.0, length_m);
-        let mut map = Self { lowest_m, length_m, shadow: [2.0, 2.0], breaks: [0.0; Self::BREAKS] };
+        let mut map = Self::without_shadow(radius_m, (ray.h_m, ray.mu), length_m);
         if let Some((start_m, end_m)) = shadow_interval(radius_m, ray, length_m) {
             map.shadow = [start_m, end_m].map(|t_m| map.variable(t_m));
         }
-        let start = if lowest_m > 0.0 { -1.0 } else { 0.0 };
-        let end = if length_m > lowest_m { 1.0 } else { 0.0 };
+        let [start, .., end] = map.breaks;
         let [enter, leave] = map.shadow.map(|x: f64| x.clamp(start, end));
-        map.breaks = [start, enter, leave, 0.0_f64.clamp(start, end), end];
+        map.breaks[1..4].copy_from_slice(&[enter, leave, 0.0_f64.clamp(start, end)]);
         map.breaks[1..4].sort_by(f64::total_cmp);
         map
     }
 
+    /// The map of a ray from altitude `h_m` with zenith cosine `mu`, broken at its lowest point alone.
+    pub(crate) fn without_shadow(radius_m: f64, (h_m, mu): (f64, f64), length_m: f64) -> Self {
+        let lowest_m = (-(radius_m + h_m) * mu).clamp(0.0, length_m);
+        let start = if lowest_m > 0.0 { -1.0 } else { 0.0 };
+        let end = if length_m > lowest_m { 1.0 } else { 0.0 };
+        let lowest = 0.0_f64.clamp(start, end);
+        Self { lowest_m, length_m, shadow: [2.0, 2.0], breaks: [start, lowest, lowest, lowest, end] }
+    }
+
+    /// Calls `visit` with the start and the width of each panel from the start of the ray on, about `panels` in all.
+    pub(crate) fn for_each_panel(&self, panels: usize, mut visit: impl FnMut(f64, f64)) {
+        for piece in self.breaks.windows(2) {
+            let [from, to] = [piece[0], piece[1]];
+            if to <= from {
+                continue;
+            }
+            let count = (panels as f64 * self.share(from, to)).ceil().max(1.0);
+            let width = (to - from) / count;
+            let mut x = from;
+            while x < to - 0.5 * width {
+                visit(x, width);
+                x += width;
+            }
+        }
+    }
+
     /// Distance (m) along the ray and its derivative by x (m).
-    fn position(&self, x: f64) -> (f64, f64) {
+    pub(crate) fn position(&self, x: f64) -> (f64, f64) {
         let side_m = if x < 0.0 { self.lowest_m } else { self.length_m - self.lowest_m };
         (self.lowest_m + x * x.abs() * side_m, 2.0 * x.abs() * side_m)
     }

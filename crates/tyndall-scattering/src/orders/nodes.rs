@@ -1,0 +1,152 @@
+//! Nodes of the source table: altitudes and suns, and the place of values between them. WGSL:
+//! `shaders/sky/orders_nodes.wgsl`.
+
+use super::OrdersQuality;
+
+/// Lowest sun of the table: zenith cosine, 20 degrees below the horizon.
+pub const LOWEST_MU_SUN: f64 = -0.342;
+
+/// How fast twilight falls with the sun's zenith cosine: by e in 1.1 degrees. Between suns below the horizon a value is
+/// linear in exp([`TWILIGHT_RATE`] `mu_sun`), hence exact where the light falls at this rate and where it is constant.
+pub const TWILIGHT_RATE: f64 = 50.0;
+
+/// Linear part of the suns' spacing at the horizon, of an evenly spaced one.
+const HORIZON_SPACING: f64 = 0.3;
+
+/// A place between two neighbouring nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The lower of the two.
+    pub index: usize,
+    /// Weight of the upper one, 0 to 1.
+    pub fraction: f64,
+}
+
+/// The nodes of a source table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nodes {
+    top_altitude_m: f64,
+    altitudes: usize,
+    suns_above: usize,
+    suns_below: usize,
+}
+
+impl Nodes {
+    /// Nodes up to the top of the atmosphere.
+    #[must_use]
+    pub fn new(top_altitude_m: f64, quality: &OrdersQuality) -> Self {
+        let OrdersQuality { altitudes, suns_above, suns_below, .. } = *quality;
+        Self { top_altitude_m, altitudes, suns_above, suns_below }
+    }
+
+    /// Altitudes.
+    #[must_use]
+    pub fn altitude_count(&self) -> usize {
+        self.altitudes
+    }
+
+    /// Suns, from the lowest to the zenith.
+    #[must_use]
+    pub fn sun_count(&self) -> usize {
+        self.suns_above + self.suns_below
+    }
+
+    /// Altitude (m) of a node.
+    #[must_use]
+    pub fn altitude_m(&self, index: usize) -> f64 {
+        let share = index as f64 / (self.altitudes - 1) as f64;
+        self.top_altitude_m * share * share
+    }
+
+    /// Zenith cosine of the sun of a node.
+    #[must_use]
+    pub fn mu_sun(&self, index: usize) -> f64 {
+        if index < self.suns_below {
+            return LOWEST_MU_SUN * (1.0 - index as f64 / self.suns_below as f64);
+        }
+        let share = (index - self.suns_below) as f64 / (self.suns_above - 1) as f64;
+        share * (HORIZON_SPACING + (1.0 - HORIZON_SPACING) * share)
+    }
+
+    /// Place of an altitude (m).
+    #[must_use]
+    pub fn altitude_place(&self, altitude_m: f64) -> Place {
+        let share = (altitude_m / self.top_altitude_m).clamp(0.0, 1.0).sqrt();
+        place(share * (self.altitudes - 1) as f64, self.altitudes)
+    }
+
+    /// Place of a sun's zenith cosine.
+    #[must_use]
+    pub fn sun_place(&self, mu_sun: f64) -> Place {
+        if mu_sun < 0.0 {
+            let depth = (mu_sun / LOWEST_MU_SUN).min(1.0);
+            let Place { index, fraction } = place((1.0 - depth) * self.suns_below as f64, self.suns_below + 1);
+            let step = TWILIGHT_RATE * -LOWEST_MU_SUN / self.suns_below as f64;
+            return Place { index, fraction: (fraction * step).exp_m1() / step.exp_m1() };
+        }
+        // The root of share (a + (1 - a) share) = mu, in the form that does not cancel.
+        let a = HORIZON_SPACING;
+        let mu = mu_sun.min(1.0);
+        let share = 2.0 * mu / (a + (a * a + 4.0 * (1.0 - a) * mu).sqrt());
+        let Place { index, fraction } = place(share * (self.suns_above - 1) as f64, self.suns_above);
+        Place { index: index + self.suns_below, fraction }
+    }
+}
+
+/// The node below a position, never the last.
+#[expect(clippy::cast_possible_truncation, reason = "0 to the count of nodes")]
+fn place(position: f64, count: usize) -> Place {
+    let index = (position as usize).min(count - 2);
+    Place { index, fraction: position - index as f64 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn nodes() -> Nodes {
+        Nodes::new(80e3, &OrdersQuality::preview())
+    }
+
+    #[test]
+    fn every_node_is_its_own_place() {
+        let nodes = nodes();
+        for i in 0..nodes.altitude_count() {
+            let Place { index, fraction } = nodes.altitude_place(nodes.altitude_m(i));
+            assert!((index as f64 + fraction - i as f64).abs() < 1e-9, "altitude {i}: {index} {fraction}");
+        }
+        for j in 0..nodes.sun_count() {
+            let Place { index, fraction } = nodes.sun_place(nodes.mu_sun(j));
+            assert!((index as f64 + fraction - j as f64).abs() < 1e-9, "sun {j}: {index} {fraction}");
+        }
+    }
+
+    #[test]
+    fn the_ends_are_ground_top_zenith_and_horizon() {
+        let nodes = nodes();
+        let top_m = nodes.altitude_m(nodes.altitude_count() - 1);
+        assert!(nodes.altitude_m(0) == 0.0 && (top_m - 80e3).abs() < 1e-6, "{top_m}");
+        assert!((nodes.mu_sun(nodes.sun_count() - 1) - 1.0).abs() < 1e-12, "zenith");
+        assert!(nodes.mu_sun(20) == 0.0, "the horizon is a node");
+    }
+
+    #[test]
+    fn values_outside_the_nodes_are_those_of_the_nearest() {
+        let nodes = nodes();
+        let Place { index, fraction } = nodes.sun_place(-0.9);
+        assert!(index == 0 && fraction == 0.0, "deep night: {index} {fraction}");
+        let Place { index, fraction } = nodes.altitude_place(1e6);
+        assert!(index + 2 == nodes.altitude_count() && (fraction - 1.0).abs() < 1e-12, "space: {index} {fraction}");
+    }
+
+    #[test]
+    fn a_twilight_that_falls_at_the_assumed_rate_is_interpolated_exactly() {
+        let nodes = nodes();
+        let light = |mu: f64| (TWILIGHT_RATE * mu).exp() + 0.1;
+        for mu in [-0.3, -0.123, -0.05, -0.0031] {
+            let Place { index, fraction } = nodes.sun_place(mu);
+            let got = light(nodes.mu_sun(index)) * (1.0 - fraction) + light(nodes.mu_sun(index + 1)) * fraction;
+            assert!((got / light(mu) - 1.0).abs() < 1e-12, "{mu}: {got} {}", light(mu));
+        }
+    }
+}

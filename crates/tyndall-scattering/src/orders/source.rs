@@ -1,0 +1,85 @@
+//! The table that all views of an atmosphere share, whatever the sun.
+
+use std::f64::consts::PI;
+
+use tyndall_core::spectrum::{Spectrum, WAVELENGTH_COUNT};
+
+use super::OrdersQuality;
+use super::build::OrderLoop;
+use super::field::{Field, Light};
+use super::media::ScatteringMedia;
+use super::path::{Path, widen};
+use crate::geometry::{Ray, mu_along};
+use crate::march::Marcher;
+use crate::single_scattering::{RayEnd, ray_end};
+
+/// Diffuse light of all orders at all altitudes for all suns.
+#[derive(Clone, Debug)]
+pub struct SourceTable {
+    media: ScatteringMedia,
+    all: Field,
+    first_irradiance: Vec<Light>,
+}
+
+impl SourceTable {
+    /// Computes all orders of scattering.
+    #[must_use]
+    pub fn new(marcher: &Marcher, quality: &OrdersQuality) -> Self {
+        let orders = OrderLoop::new(marcher, quality);
+        let first = orders.first();
+        Self::from_fields(marcher, orders.sum(&first), first.irradiance)
+    }
+
+    /// A table from light that something else has computed: that of all orders, and the irradiance by the first alone.
+    #[must_use]
+    pub fn from_fields(marcher: &Marcher, all: Field, first_irradiance: Vec<Light>) -> Self {
+        Self { media: ScatteringMedia::new(&marcher.atmosphere), all, first_irradiance }
+    }
+
+    /// The stored light of all orders.
+    #[must_use]
+    pub fn field(&self) -> &Field {
+        &self.all
+    }
+
+    /// Irradiance of the sky on horizontal ground at sea level by all orders, without direct sunlight (W/m^2/nm).
+    #[must_use]
+    pub fn irradiance(&self, mu_sun: f64) -> Spectrum {
+        widen(&self.all.irradiance_at(mu_sun))
+    }
+
+    /// The part of [`SourceTable::irradiance`] that was scattered or reflected at least twice: what is to be added to
+    /// [`crate::irradiance_table`].
+    #[must_use]
+    pub fn irradiance_beyond_first(&self, mu_sun: f64) -> Spectrum {
+        let place = self.all.nodes.sun_place(mu_sun);
+        let beyond = |sun: usize, k: usize| f64::from(self.all.irradiance[sun][k] - self.first_irradiance[sun][k]);
+        std::array::from_fn(|k| {
+            beyond(place.index, k) * (1.0 - place.fraction) + beyond(place.index + 1, k) * place.fraction
+        })
+    }
+}
+
+/// Radiance (W/m^2/sr/nm) by light that was scattered into a ray after it had been scattered or reflected before: all
+/// that [`crate::single_scattering`] leaves out, but the ground itself. The ray starts inside the atmosphere and ends at
+/// `end`.
+#[must_use]
+pub fn diffuse_scattered(marcher: &Marcher, source: &SourceTable, ray: &Ray, end: RayEnd) -> Spectrum {
+    let path = Path::new(marcher, &source.media, &source.all, (ray.h_m, ray.mu, end), marcher.panels);
+    widen(&path.gather_once(&source.all, ray))
+}
+
+/// Radiance (W/m^2/sr/nm) of everything that [`crate::single_scattering::single_scattering`] leaves out: diffuse light
+/// scattered into the ray, and diffuse light that the ground reflects behind the air in front of it. The sum of the two
+/// is the radiance by all orders.
+#[must_use]
+pub fn diffuse_radiance(marcher: &Marcher, source: &SourceTable, ray: &Ray) -> Spectrum {
+    let end = ray_end(&marcher.atmosphere, ray.h_m, ray.mu);
+    let path = Path::new(marcher, &source.media, &source.all, (ray.h_m, ray.mu, end), marcher.panels);
+    let scattered = widen(&path.gather_once(&source.all, ray));
+    let Some(end) = path.ground else { return scattered };
+    let radius_m = marcher.atmosphere.planet_radius_m;
+    let irradiance = source.irradiance(mu_along(radius_m, ray.h_m, ray.mu_sun, ray.nu, end.length_m, 0.0));
+    let ground = |k: usize| marcher.coefficients.ground_albedo[k] / PI * end.transmittance[k] * irradiance[k];
+    std::array::from_fn::<f64, WAVELENGTH_COUNT, _>(|k| scattered[k] + ground(k))
+}
