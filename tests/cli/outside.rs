@@ -20,9 +20,9 @@ mod signals {
 
     use crate::program::Place;
 
-    /// A render that takes seconds on any machine, seen to have reached the frame.
+    /// A render that takes long enough on any machine, seen to have reached the frame.
     fn start(place: &Place) -> Child {
-        let words = ["render", "preset:noon", "-o", "a.exr", "--size", "3000x3000", "--compression", "piz"];
+        let words = ["render", "preset:noon", "-o", "a.exr", "--size", "2048x2048", "--compression", "piz"];
         let mut command = place.command(&[&words[..], &["--float", "--progress", "json"]].concat());
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
         let stdout = child.stdout.take().expect("piped");

@@ -13,7 +13,6 @@ mod write;
 
 use std::path::PathBuf;
 
-use clap::builder::NonEmptyStringValueParser;
 use serde_json::json;
 use tyndall_gpu::{AdapterChoice, GpuOptions, PassTiming};
 use tyndall_io::atomic::check_writable;
@@ -45,8 +44,7 @@ picture in sRGB.";
 #[command(after_help = format!("{EXAMPLES}\n\n{}", Exit::table()))]
 pub struct RenderArguments {
     /// Scene file, or `preset:NAME` for a scene that comes with Tyndall
-    #[arg(value_parser = NonEmptyStringValueParser::new())]
-    pub scene: String,
+    pub scene: PathBuf,
     /// Picture file; its ending decides the format: .png, .exr, .jpg
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,

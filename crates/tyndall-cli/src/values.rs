@@ -1,6 +1,6 @@
 //! What options take: sizes in pixels and in bytes, and settings of parameters.
 
-/// Width and height [pixels] from a text like `1920x1080`. Any size that is one; the scene's range is checked later.
+/// Width and height in pixels from a text like `1920x1080`. Any size that is one; the scene's range is checked later.
 ///
 /// # Errors
 /// A sentence for the user.

@@ -33,16 +33,16 @@ pub enum CompressionName {
 /// The options that concern the file.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub struct FormatArguments {
-    /// Bits a channel of a PNG file [default: 8]
-    #[arg(long, value_enum, hide_default_value = true)]
+    /// Bits a channel of a PNG file; 8 unless given
+    #[arg(long, value_enum)]
     pub bits: Option<Bits>,
-    /// EXR with 16-bit floats: half the size, light above 65,504 cd/m2 is clamped [default]
+    /// EXR with 16-bit floats: half the size, light above 65,504 cd/m2 is clamped (the default)
     #[arg(long, conflicts_with = "float")]
     pub half: bool,
     /// EXR with 32-bit floats: the sun's disc keeps its energy
     #[arg(long)]
     pub float: bool,
-    /// How an EXR file is packed [default: zips]
+    /// How an EXR file is packed; zips unless given
     #[arg(long, value_enum, value_name = "METHOD")]
     pub compression: Option<CompressionName>,
 }

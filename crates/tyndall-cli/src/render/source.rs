@@ -1,5 +1,7 @@
 //! Where a scene comes from: a file, or the program itself.
 
+use std::path::Path;
+
 use tyndall_scene::{Scene, SceneFile};
 
 use crate::{Failure, presets};
@@ -8,10 +10,10 @@ use crate::{Failure, presets};
 const PRESET: &str = "preset:";
 
 /// Loads the scene that a user names.
-pub(super) fn load(name: &str) -> Result<Scene, Failure> {
-    let file = match name.strip_prefix(PRESET) {
-        Some(preset) => presets::find(preset)?.load()?,
-        None => SceneFile::load(name)?,
+pub(super) fn load(source: &Path) -> Result<Scene, Failure> {
+    let file = match source.to_str().and_then(|text| text.strip_prefix(PRESET)) {
+        Some(name) => presets::find(name)?.load()?,
+        None => SceneFile::load(source)?,
     };
     Ok(file.scene)
 }
@@ -22,16 +24,16 @@ mod tests {
 
     #[test]
     fn presets_are_loaded_by_name_and_files_by_path() {
-        let preset = load("preset:noon").unwrap();
+        let preset = load(Path::new("preset:noon")).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("noon.toml");
         std::fs::write(&path, presets::find("noon").unwrap().text).unwrap();
-        assert_eq!(load(&path.display().to_string()).unwrap(), preset, "the same scene both ways");
+        assert_eq!(load(&path).unwrap(), preset, "the same scene both ways");
     }
 
     #[test]
     fn a_missing_scene_is_refused_with_its_name() {
-        let failure = load("no/such/scene.toml").expect_err("no such file");
+        let failure = load(Path::new("no/such/scene.toml")).expect_err("no such file");
         assert!(failure.to_string().starts_with("no/such/scene.toml: cannot be read: "), "{failure}");
     }
 }
