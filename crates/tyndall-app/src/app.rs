@@ -4,11 +4,11 @@ use std::{collections::VecDeque, fmt, path::PathBuf, time::Duration};
 
 use egui::{CentralPanel, Frame, Key, Modifiers, Panel, Ui, ViewportCommand};
 use egui_tiles::Tree;
+use tyndall_gpu::AdapterChoice;
 use tyndall_scene::Scene;
 
 use crate::{
-    action,
-    banner,
+    action, banner,
     document::Document,
     layout::{self, Pane},
     logging::LogBuffer,
@@ -38,6 +38,8 @@ pub struct AppOptions {
     pub data_dir: Option<PathBuf>,
     /// The log that the log panel shows.
     pub log: LogBuffer,
+    /// Adapter that [`crate::run`] takes.
+    pub adapter: AdapterChoice,
 }
 
 /// What is remembered between runs, besides what egui remembers itself.

@@ -83,7 +83,8 @@ impl Document {
 
     /// Name for people: that of the file, or else the title.
     pub(crate) fn name(&self) -> String {
-        let of_file = self.path.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy().into_owned());
+        let of_file =
+            self.path.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy().into_owned());
         let title = Some(self.scene().title.clone()).filter(|title| !title.is_empty());
         of_file.or(title).unwrap_or_else(|| UNTITLED.to_owned())
     }

@@ -90,6 +90,8 @@ impl Engine {
     pub(crate) fn draw(&mut self, scene: &Scene, target: &mut FrameTarget, divisor: u32) -> Result<(), Problem> {
         // Recording is not waited for: the window's own frame follows in the same queue.
         let _submission = self.renderer.render(&self.gpu, scene, target)?;
+        // Callbacks run while polling; without it a loss would go unnoticed.
+        self.gpu.poll()?;
         self.gpu.check()?;
         self.timed = self.gpu.has_timestamps().then_some((target.size_px(), divisor));
         Ok(())
@@ -112,6 +114,13 @@ impl Engine {
         Ok(self.renderer.read_ev100(&self.gpu)?)
     }
 
+    /// The loss of the device where that is what is behind a problem.
+    fn blame(&self, problem: Problem) -> Problem {
+        // A loss is told only once all work is off the queue.
+        let waited = self.gpu.wait(self.gpu.queue.submit([]));
+        waited.and_then(|()| self.gpu.check()).err().map_or(problem, Problem::from)
+    }
+
     /// Whether timings are on their way.
     pub(crate) fn awaits_timings(&self) -> bool {
         self.timed.is_some()
@@ -121,7 +130,8 @@ impl Engine {
     pub(crate) fn poll_timings(&mut self) -> Result<bool, Problem> {
         let Some((size_px, divisor)) = self.timed else { return Ok(false) };
         self.gpu.poll()?;
-        let Some(passes) = self.renderer.poll_timings(&self.gpu)? else { return Ok(false) };
+        let passes = self.renderer.poll_timings(&self.gpu).map_err(|error| self.blame(error.into()))?;
+        let Some(passes) = passes else { return Ok(false) };
         self.timed = None;
         if self.timings.len() == TIMED_FRAMES {
             self.timings.pop_front();

@@ -146,9 +146,7 @@ impl Job {
         let status = self.child.wait();
         self.progress = match (&self.progress, status) {
             (Progress::Cancelled, _) => Progress::Cancelled,
-            (_, Ok(status)) if status.success() => {
-                Progress::Finished { seconds: self.started.elapsed().as_secs_f64() }
-            }
+            (_, Ok(status)) if status.success() => Progress::Finished { seconds: self.started.elapsed().as_secs_f64() },
             (_, Ok(status)) if errors.is_empty() => Progress::Failed(status.to_string()),
             (_, Ok(_)) => Progress::Failed(errors.to_owned()),
             (_, Err(error)) => Progress::Failed(error.to_string()),
@@ -240,9 +238,11 @@ mod tests {
         let program = folder.path().join("program");
         std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
-        let order = Order { scene_text: "format = 1\n".to_owned(), output: folder.path().join("a.png"), options: vec![] };
+        let order =
+            Order { scene_text: "format = 1\n".to_owned(), output: folder.path().join("a.png"), options: vec![] };
         let (woken, wakes) = channel();
-        let mut job = Job::start_program(&program, &order, move || drop(woken.send(()))).unwrap();
+        let wake = move || woken.send(()).unwrap_or_default();
+        let mut job = Job::start_program(&program, &order, wake).unwrap();
         if cancel {
             job.cancel();
         }
@@ -253,7 +253,8 @@ mod tests {
     #[test]
     #[cfg(unix)]
     fn the_outcome_is_what_the_program_says() {
-        let finished = outcome(r#"echo '{"event":"progress","done":0.5}'; echo '{"event":"finished","seconds":2.5}'"#, false);
+        let finished =
+            outcome(r#"echo '{"event":"progress","done":0.5}'; echo '{"event":"finished","seconds":2.5}'"#, false);
         assert_eq!(finished, Progress::Finished { seconds: 2.5 }, "its own time");
         let failed = outcome(r#"echo '{"event":"error","message":"no room"}'; exit 1"#, false);
         assert_eq!(failed, Progress::Failed("no room".to_owned()), "its own words");

@@ -4,8 +4,8 @@ use std::{process::ExitCode, sync::Arc};
 
 use eframe::{NativeOptions, Renderer};
 use egui::{ViewportBuilder, vec2};
-use egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, wgpu};
-use tyndall_gpu::{Gpu, GpuError, GpuOptions};
+use egui_wgpu::{NativeAdapterSelectorMethod, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, wgpu};
+use tyndall_gpu::{AdapterChoice, Gpu, GpuError, GpuOptions};
 
 use crate::{App, AppOptions};
 
@@ -29,17 +29,18 @@ pub fn run(mut options: AppOptions) -> ExitCode {
             .with_inner_size(WINDOW_PT)
             .with_min_inner_size(MIN_WINDOW_PT),
         renderer: Renderer::Wgpu,
-        wgpu_options: wgpu_configuration(),
+        wgpu_options: wgpu_configuration(&options.adapter),
         ..NativeOptions::default()
     };
     let result = eframe::run_native(APP_ID, native, Box::new(move |context| Ok(Box::new(App::new(context, options)))));
     result.map_or_else(|error| explain(&error), |()| ExitCode::SUCCESS)
 }
 
-/// A device with the limits and the timestamps that the renderer wants.
+/// A device with the limits and the timestamps that the renderer wants, on the adapter chosen.
 #[must_use]
-pub fn wgpu_configuration() -> WgpuConfiguration {
+pub fn wgpu_configuration(choice: &AdapterChoice) -> WgpuConfiguration {
     let setup = WgpuSetupCreateNew {
+        native_adapter_selector: selector(choice.clone()),
         device_descriptor: Arc::new(|adapter| wgpu::DeviceDescriptor {
             label: Some("tyndall"),
             required_features: wgpu::Features::TIMESTAMP_QUERY & adapter.features(),
@@ -49,6 +50,28 @@ pub fn wgpu_configuration() -> WgpuConfiguration {
         ..WgpuSetupCreateNew::without_display_handle()
     };
     WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..WgpuConfiguration::default() }
+}
+
+/// Picks among the adapters that can show the window; `None` leaves the choice to the system.
+fn selector(choice: AdapterChoice) -> Option<NativeAdapterSelectorMethod> {
+    if choice == AdapterChoice::Auto {
+        return None;
+    }
+    Some(Arc::new(move |adapters, surface| {
+        let usable = |adapter: &&wgpu::Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
+        let usable: Vec<_> = adapters.iter().filter(usable).collect();
+        let found = match &choice {
+            AdapterChoice::Auto => usable.first(),
+            AdapterChoice::Software => usable.iter().find(|a| a.get_info().device_type == wgpu::DeviceType::Cpu),
+            AdapterChoice::Index(index) => usable.get(*index),
+            AdapterChoice::Name(part) => {
+                usable.iter().find(|a| a.get_info().name.to_lowercase().contains(&part.to_lowercase()))
+            }
+        };
+        let names: Vec<_> = usable.iter().map(|adapter| adapter.get_info().name).collect();
+        let missing = || format!("no adapter fits `{choice}`; there are: {}", names.join(", "));
+        found.map(|adapter| (*adapter).clone()).ok_or_else(missing)
+    }))
 }
 
 /// One sentence on stderr, and the exit code.
@@ -63,7 +86,7 @@ fn explain(error: &eframe::Error) -> ExitCode {
         eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => {
             (format!("no window can be opened: {error}; `tyndall render` needs none"), ExitCode::FAILURE)
         }
-        other => (other.to_string(), ExitCode::FAILURE),
+        eframe::Error::AppCreation(reason) => (reason.to_string(), ExitCode::FAILURE),
     };
     eprintln!("tyndall-app: {sentence}");
     code

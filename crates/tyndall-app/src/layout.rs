@@ -16,15 +16,8 @@ pub(crate) enum Pane {
 
 impl Pane {
     /// All, in the order of the menu.
-    pub(crate) const ALL: [Self; 7] = [
-        Self::Viewport,
-        Self::Parameters,
-        Self::Camera,
-        Self::Export,
-        Self::Gallery,
-        Self::Timings,
-        Self::Log,
-    ];
+    pub(crate) const ALL: [Self; 7] =
+        [Self::Viewport, Self::Parameters, Self::Camera, Self::Export, Self::Gallery, Self::Timings, Self::Log];
 
     /// Title of the tab.
     pub(crate) fn title(self) -> &'static str {
@@ -32,7 +25,7 @@ impl Pane {
             Self::Viewport => "View",
             Self::Parameters => "Parameters",
             Self::Camera => "Camera",
-            Self::Export => "Render",
+            Self::Export => "Export",
             Self::Gallery => "Gallery",
             Self::Timings => "Timings",
             Self::Log => "Log",
@@ -69,7 +62,8 @@ pub(crate) fn default_tree() -> Tree<Pane> {
 
 /// Whether a tree from an earlier session has every panel exactly once.
 pub(crate) fn is_complete(tree: &Tree<Pane>) -> bool {
-    let count = |pane: Pane| tree.tiles.tiles().filter(|tile| matches!(tile, Tile::Pane(found) if *found == pane)).count();
+    let count =
+        |pane: Pane| tree.tiles.tiles().filter(|tile| matches!(tile, Tile::Pane(found) if *found == pane)).count();
     Pane::ALL.into_iter().all(|pane| count(pane) == 1)
 }
 

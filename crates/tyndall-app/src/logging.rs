@@ -105,12 +105,15 @@ struct Text(String);
 
 impl Visit for Text {
     fn record_debug(&mut self, field: &Field, value: &dyn fmt::Debug) {
-        // Writing to a String cannot fail. Names with `log.` are those of the bridge from the `log` crate.
-        let _written = match field.name() {
-            "message" => Ok(self.0.insert_str(0, &format!("{value:?}"))),
-            name if name.starts_with("log.") => Ok(()),
-            name => write!(self.0, " {name}={value:?}"),
-        };
+        match field.name() {
+            "message" => self.0.insert_str(0, &format!("{value:?}")),
+            // Names of the bridge from the `log` crate.
+            name if name.starts_with("log.") => {}
+            name => {
+                // Writing to a String cannot fail.
+                let _written = write!(self.0, " {name}={value:?}");
+            }
+        }
     }
 }
 

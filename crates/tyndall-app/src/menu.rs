@@ -29,7 +29,8 @@ pub(crate) fn show(ui: &mut Ui, app: &mut App) {
             let document = &app.bench.document;
             let text = RichText::new(document.name());
             let text = if document.is_dirty() { text.strong() } else { text.weak() };
-            let path = document.path().map_or_else(|| "Not saved as a file yet.".to_owned(), |p| p.display().to_string());
+            let path =
+                document.path().map_or_else(|| "Not saved as a file yet.".to_owned(), |p| p.display().to_string());
             let label = ui.add(egui::Label::new(text).truncate()).on_hover_text(path);
             if document.is_dirty() {
                 let dot = label.rect.left_center() - egui::vec2(9.0, 0.0);

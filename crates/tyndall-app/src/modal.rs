@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Context, Frame, Grid, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};
 use tyndall_scene::Preset;
 
 use crate::{
@@ -15,6 +15,9 @@ use crate::{
 
 /// Widest a message gets.
 const WIDTH_PT: f32 = 560.0;
+
+/// Room around a message.
+const MARGIN_PT: i8 = 18;
 
 /// What replaces the document once the user agrees to lose its changes.
 #[derive(Clone, Debug)]
@@ -62,8 +65,14 @@ pub(crate) enum Answer {
 }
 
 /// Shows a question until it is answered: either the question again, or the answer.
-pub(crate) fn show(ctx: &Context, question: Question, recent: &Recent, dialogs: &FileDialogs) -> Result<Answer, Question> {
-    let modal = Modal::new(Id::unique("question")).show(ctx, |ui| {
+pub(crate) fn show(
+    ctx: &Context,
+    question: Question,
+    recent: &Recent,
+    dialogs: &FileDialogs,
+) -> Result<Answer, Question> {
+    let frame = Frame::popup(&ctx.global_style()).inner_margin(MARGIN_PT);
+    let modal = Modal::new(Id::unique("question")).frame(frame).show(ctx, |ui| {
         ui.set_max_width(WIDTH_PT);
         ui.spacing_mut().item_spacing.y = 8.0;
         contents(ui, question, recent, dialogs)
@@ -201,8 +210,7 @@ fn recover(ui: &mut Ui, leftover: Leftover) -> Result<Answer, Question> {
     ui.heading("Recover unsaved changes?");
     let of = leftover.path.as_ref().map_or_else(|| "a new scene".to_owned(), |path| path.display().to_string());
     ui.label(format!("Tyndall ended unexpectedly with unsaved changes to {of}."));
-    let (recover, forget) =
-        ui.horizontal(|ui| (ui.button("Recover").clicked(), ui.button("Discard").clicked())).inner;
+    let (recover, forget) = ui.horizontal(|ui| (ui.button("Recover").clicked(), ui.button("Discard").clicked())).inner;
     match (recover, forget) {
         (true, _) => Ok(Answer::Recover(leftover)),
         (_, true) => Ok(Answer::Forget(leftover)),

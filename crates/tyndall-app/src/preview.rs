@@ -14,6 +14,8 @@ const NEWEST_WEIGHT: f64 = 0.5;
 pub(crate) struct Preview {
     /// Time of a frame at each divisor and the pixels it had; none before it was tried.
     measured: [Option<Measured>; DIVISORS.len()],
+    /// Whether the first frame has come, which includes the driver's compilation and says nothing about the others.
+    warm: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +28,9 @@ impl Preview {
     /// Takes in a measured frame.
     pub(crate) fn learn(&mut self, divisor: u32, size_px: [u32; 2], ms: f64) {
         let Some(slot) = DIVISORS.iter().position(|known| *known == divisor) else { return };
+        if !std::mem::replace(&mut self.warm, true) {
+            return;
+        }
         let old = self.measured[slot].map_or(ms, |old| old.ms);
         let pixels = f64::from(size_px[0]) * f64::from(size_px[1]);
         self.measured[slot] = Some(Measured { ms: old + (ms - old) * NEWEST_WEIGHT, pixels });
@@ -33,7 +38,8 @@ impl Preview {
 
     /// The finest divisor that is fast enough for a view of this size.
     pub(crate) fn divisor(&self, view_px: [u32; 2]) -> u32 {
-        let fast = |(slot, divisor): &(usize, u32)| self.expected_ms(*slot, reduced(view_px, *divisor)) <= MAX_MOVING_MS;
+        let fast =
+            |(slot, divisor): &(usize, u32)| self.expected_ms(*slot, reduced(view_px, *divisor)) <= MAX_MOVING_MS;
         let chosen = DIVISORS.into_iter().enumerate().find(fast);
         chosen.map_or(DIVISORS[DIVISORS.len() - 1], |(_, divisor)| divisor)
     }
@@ -68,6 +74,7 @@ mod tests {
     fn a_fast_machine_previews_at_full_resolution_and_a_slow_one_does_not() {
         for (full_ms, divisor) in [(5.0, 1), (59.0, 1), (70.0, 2), (230.0, 2), (300.0, 4), (9000.0, 4)] {
             let mut preview = Preview::default();
+            preview.learn(1, VIEW_PX, 1e6);
             preview.learn(1, VIEW_PX, full_ms);
             assert_eq!(preview.divisor(VIEW_PX), divisor, "a frame takes {full_ms} ms");
         }
@@ -80,7 +87,7 @@ mod tests {
 
     #[test]
     fn what_was_measured_counts_more_than_what_follows_from_another_resolution() {
-        let mut preview = Preview::default();
+        let mut preview = Preview { warm: true, ..Preview::default() };
         preview.learn(1, VIEW_PX, 100.0);
         // A frame has parts that do not shrink with the picture.
         preview.learn(2, reduced(VIEW_PX, 2), 80.0);

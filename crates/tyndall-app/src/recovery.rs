@@ -78,7 +78,8 @@ impl Session {
             let path = document.path().map(|path| std::path::absolute(path).unwrap_or_else(|_gone| path.to_owned()));
             self.lock.write_all(path.unwrap_or_default().to_string_lossy().as_bytes())?;
             let scene_path = self.scene_path();
-            tyndall_io::atomic::write_atomically(&scene_path, |file| file.write_all(text.as_bytes())).map_err(io::Error::other)?;
+            tyndall_io::atomic::write_atomically(&scene_path, |file| file.write_all(text.as_bytes()))
+                .map_err(io::Error::other)?;
         }
         self.written = text;
         Ok(())

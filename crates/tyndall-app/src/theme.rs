@@ -57,12 +57,9 @@ fn apply(style: &mut Style, base: Visuals, palette: &Palette) {
     style.spacing.tooltip_width = 380.0;
     style.spacing.combo_width = 120.0;
     style.explanation_tooltips = false;
-    for (text_style, size) in [
-        (TextStyle::Body, 13.5),
-        (TextStyle::Button, 13.5),
-        (TextStyle::Small, 11.5),
-        (TextStyle::Heading, 18.0),
-    ] {
+    for (text_style, size) in
+        [(TextStyle::Body, 13.5), (TextStyle::Button, 13.5), (TextStyle::Small, 11.5), (TextStyle::Heading, 18.0)]
+    {
         style.text_styles.insert(text_style, FontId::proportional(size));
     }
     style.text_styles.insert(TextStyle::Monospace, FontId::monospace(12.5));

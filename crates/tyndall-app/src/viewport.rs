@@ -95,10 +95,7 @@ fn frame(ui: &Ui, rect: Rect, scene: &Scene) {
         return;
     }
     let inner = Rect::from_center_size(rect.center(), vec2(width, rect.height()));
-    for side in [
-        Rect::from_min_max(rect.min, inner.left_bottom()),
-        Rect::from_min_max(inner.right_top(), rect.max),
-    ] {
+    for side in [Rect::from_min_max(rect.min, inner.left_bottom()), Rect::from_min_max(inner.right_top(), rect.max)] {
         ui.painter().rect_filled(side, CornerRadius::ZERO, SHADE);
     }
 }

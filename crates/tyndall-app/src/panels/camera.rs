@@ -3,7 +3,7 @@
 use egui::{Align, Layout, ScrollArea, Ui, vec2};
 use tyndall_scene::Scene;
 
-use super::group;
+use super::{SCROLL_MARGIN, group};
 use crate::{
     navigation::{DragTool, View},
     viewport::ViewportOptions,
@@ -14,7 +14,7 @@ const CAPTION_PT: f32 = 64.0;
 
 /// Shows the panel.
 pub(crate) fn show(ui: &mut Ui, scene: &mut Scene, options: &mut ViewportOptions) {
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    ScrollArea::vertical().auto_shrink(false).content_margin(SCROLL_MARGIN).show(ui, |ui| {
         views(ui, scene, "Heading", &View::HEADINGS);
         views(ui, scene, "Look at", &View::TARGETS);
         ui.horizontal_wrapped(|ui| {

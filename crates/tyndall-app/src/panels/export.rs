@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{ComboBox, ProgressBar, ScrollArea, TextEdit, Ui};
 
-use super::{group, row::rename};
+use super::{SCROLL_MARGIN, group, row::rename};
 use crate::{
     document::Document,
     file_dialog::{FileDialogs, Purpose},
@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// What the user has chosen for pictures besides their size.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub(crate) struct ExportOptions {
     /// Where the picture goes; the ending decides about the format.
@@ -21,12 +21,6 @@ pub(crate) struct ExportOptions {
     pub(crate) float: bool,
     /// Precision of PNG files: 16 bits in place of 8.
     pub(crate) deep: bool,
-}
-
-impl Default for ExportOptions {
-    fn default() -> Self {
-        Self { path: String::new(), float: false, deep: false }
-    }
 }
 
 impl ExportOptions {
@@ -95,7 +89,7 @@ pub(crate) fn show(
     exports: &mut Exports,
     dialogs: &FileDialogs,
 ) {
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    ScrollArea::vertical().auto_shrink(false).content_margin(SCROLL_MARGIN).show(ui, |ui| {
         group::show(ui, document.scene_mut(), group::IMAGE, "");
         file(ui, document, options, dialogs);
         ui.add_space(6.0);

@@ -55,18 +55,13 @@ impl Gallery {
     /// Shows the gallery; the preset that was clicked.
     pub(crate) fn show(&mut self, ui: &mut Ui, stage: &mut Stage) -> Option<Preset> {
         self.draw_next(ui, stage);
-        let mut chosen = None;
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ui.horizontal_wrapped(|ui| {
-                ui.spacing_mut().item_spacing = vec2(12.0, 12.0);
-                for entry in &self.entries {
-                    if card(ui, entry) {
-                        chosen = Some(entry.preset.clone());
-                    }
-                }
-            });
-        });
-        chosen
+        let cards = |ui: &mut Ui| {
+            ui.spacing_mut().item_spacing = vec2(12.0, 12.0);
+            let clicked = self.entries.iter().filter(|entry| card(ui, entry)).last();
+            clicked.map(|entry| entry.preset.clone())
+        };
+        let list = |ui: &mut Ui| ui.horizontal_wrapped(cards).inner;
+        ScrollArea::vertical().auto_shrink(false).show(ui, list).inner
     }
 
     /// Draws one picture a frame, so that the window stays awake.

@@ -8,3 +8,6 @@ pub(crate) mod log;
 pub(crate) mod parameters;
 pub(crate) mod row;
 pub(crate) mod timings;
+
+/// Room beside the contents of a list for its scroll bar.
+pub(crate) const SCROLL_MARGIN: egui::Margin = egui::Margin { left: 4, right: 10, top: 0, bottom: 0 };

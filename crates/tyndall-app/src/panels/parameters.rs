@@ -3,7 +3,7 @@
 use egui::{Key, ScrollArea, TextEdit, Ui};
 use tyndall_scene::Scene;
 
-use super::{group, row};
+use super::{SCROLL_MARGIN, group, row};
 
 /// Shows the panel; `filter` is the text of the search field.
 pub(crate) fn show(ui: &mut Ui, scene: &mut Scene, filter: &mut String) {
@@ -13,7 +13,7 @@ pub(crate) fn show(ui: &mut Ui, scene: &mut Scene, filter: &mut String) {
         filter.clear();
     }
     ui.add_space(4.0);
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    ScrollArea::vertical().auto_shrink(false).content_margin(SCROLL_MARGIN).show(ui, |ui| {
         let names: Vec<_> = group::names(scene).filter(|name| ![group::CAMERA, group::IMAGE].contains(name)).collect();
         for name in names {
             group::show(ui, scene, name, filter);

@@ -10,7 +10,7 @@ use tyndall_core::{ParamInfo, ParamKind, ParamSet, Scale};
 
 /// Widths of the columns; the slider takes the rest.
 const LABEL_PT: f32 = 132.0;
-const NUMBER_PT: f32 = 84.0;
+const NUMBER_PT: f32 = 92.0;
 const RESET_PT: f32 = 20.0;
 
 /// Dragging a number over this many points covers the range of a linear parameter.

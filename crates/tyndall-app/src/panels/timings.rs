@@ -1,15 +1,18 @@
 //! The timings panel: what a frame costs on the GPU, pass by pass.
 
-use egui::{Grid, ScrollArea, Ui};
-use egui_plot::{Legend, Line, Plot, PlotPoints};
+use std::collections::VecDeque;
+
+use egui::{Color32, Grid, ScrollArea, Sense, Ui, ecolor::Hsva, vec2};
+use egui_plot::{Line, Plot, PlotPoints};
 
 use crate::engine::{Engine, FrameTimings};
 
 /// Part of the names of passes that fill tables.
 const TABLE: &str = "table";
 
-/// Widest the table of passes gets; the plot takes the rest.
-const TABLE_PT: f32 = 330.0;
+/// Widths of the facts and of the table of passes; the plot takes the rest.
+const FACTS_PT: f32 = 250.0;
+const PASSES_PT: f32 = 240.0;
 
 /// Shows the panel.
 pub(crate) fn show(ui: &mut Ui, engine: Option<&Engine>, frames: u64) {
@@ -18,19 +21,20 @@ pub(crate) fn show(ui: &mut Ui, engine: Option<&Engine>, frames: u64) {
         return;
     };
     ui.horizontal_top(|ui| {
-        ui.vertical(|ui| {
-            ui.set_width(TABLE_PT.min(ui.available_width()));
-            ScrollArea::vertical().id_salt("passes").auto_shrink(false).show(ui, |ui| {
-                facts(ui, engine, frames);
-                ui.add_space(6.0);
-                match engine.timings.back() {
-                    Some(newest) => passes(ui, newest, &engine.timings),
-                    None if engine.gpu.has_timestamps() => drop(ui.weak("No frame has been timed yet.")),
-                    None => drop(ui.weak("This adapter cannot time its passes.")),
-                }
-            });
+        column(ui, "facts", FACTS_PT, |ui| facts(ui, engine, frames));
+        column(ui, "passes", PASSES_PT, |ui| match engine.timings.back() {
+            Some(newest) => passes(ui, newest, &engine.timings),
+            None if engine.gpu.has_timestamps() => drop(ui.weak("No frame has been timed yet.")),
+            None => drop(ui.weak("This adapter cannot time its passes.")),
         });
         plot(ui, engine);
+    });
+}
+
+fn column(ui: &mut Ui, name: &str, width: f32, contents: impl FnOnce(&mut Ui)) {
+    ui.vertical(|ui| {
+        ui.set_width(width.min(ui.available_width()));
+        ScrollArea::vertical().id_salt(name).auto_shrink(false).show(ui, contents);
     });
 }
 
@@ -50,11 +54,17 @@ fn facts(ui: &mut Ui, engine: &Engine, frames: u64) {
     });
 }
 
-fn passes<'a>(ui: &mut Ui, newest: &FrameTimings, all: impl IntoIterator<Item = &'a FrameTimings>) {
-    let last_tables = all.into_iter().map(tables_ms).filter(|ms| *ms > 0.0).last();
-    Grid::new("passes").num_columns(2).striped(true).show(ui, |ui| {
+fn passes(ui: &mut Ui, newest: &FrameTimings, all: &VecDeque<FrameTimings>) {
+    let last_tables = all.iter().map(tables_ms).rfind(|ms| *ms > 0.0);
+    Grid::new("passes").num_columns(2).show(ui, |ui| {
+        let names = pass_names(all);
         for pass in &newest.passes {
-            ui.label(pass.name);
+            let position = names.iter().position(|name| *name == pass.name).unwrap_or_default();
+            ui.horizontal(|ui| {
+                let (rect, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::empty());
+                ui.painter().rect_filled(rect, 2.0, colour(position));
+                ui.label(pass.name);
+            });
             ui.monospace(format!("{:8.2} ms", pass.ms));
             ui.end_row();
         }
@@ -74,28 +84,37 @@ fn tables_ms(frame: &FrameTimings) -> f64 {
     frame.passes.iter().filter(|pass| pass.name.contains(TABLE)).map(|pass| pass.ms).sum()
 }
 
-/// One line a pass over the last frames.
-fn plot(ui: &mut Ui, engine: &Engine) {
-    let mut names: Vec<&'static str> = Vec::new();
-    for pass in engine.timings.iter().flat_map(|frame| &frame.passes) {
+/// Names of all passes of the frames, in the order in which they first came.
+fn pass_names(all: &VecDeque<FrameTimings>) -> Vec<&'static str> {
+    let mut names = Vec::new();
+    for pass in all.iter().flat_map(|frame| &frame.passes) {
         if !names.contains(&pass.name) {
             names.push(pass.name);
         }
     }
-    let line = |name: &'static str| {
+    names
+}
+
+/// Colour of a pass in plot and table: even steps around the circle of hues, which no number of passes exhausts.
+fn colour(position: usize) -> Color32 {
+    const GOLDEN_TURN: f32 = 0.618_034;
+    Hsva::new((0.58 + position as f32 * GOLDEN_TURN).fract(), 0.62, 0.9, 1.0).into()
+}
+
+/// One line a pass over the last frames, in the colours of the table.
+fn plot(ui: &mut Ui, engine: &Engine) {
+    let line = |(position, name): (usize, &'static str)| {
         let points = engine.timings.iter().enumerate().map(|(frame, timings)| {
             let ms = timings.passes.iter().find(|pass| pass.name == name).map_or(0.0, |pass| pass.ms);
             [frame as f64, ms]
         });
-        Line::new(name, points.collect::<PlotPoints<'_>>())
+        Line::new(name, points.collect::<PlotPoints<'_>>()).color(colour(position)).width(1.6)
     };
     Plot::new("timings")
-        .legend(Legend::default())
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)
         .include_y(0.0)
         .y_axis_label("ms")
-        .x_axis_label("frame")
-        .show(ui, |plot| names.into_iter().for_each(|name| plot.line(line(name))));
+        .show(ui, |plot| pass_names(&engine.timings).into_iter().enumerate().for_each(|pass| plot.line(line(pass))));
 }

@@ -1,0 +1,78 @@
+//! The program under test: a small window on the software adapter.
+
+use egui::{Modifiers, accesskit::Role};
+use egui_kittest::{Harness, kittest::Queryable as _};
+use tyndall_app::{App, AppOptions, wgpu_configuration};
+use tyndall_gpu::AdapterChoice;
+use tyndall_scene::{Scene, SceneFile};
+
+/// The program with its state.
+pub(crate) type Program = Harness<'static, App>;
+
+/// A picture: width, height, bytes.
+pub(crate) type Picture = ([u32; 2], Vec<[u8; 4]>);
+
+/// Small on purpose: the software adapter's time goes with the pixels.
+const WINDOW_PT: egui::Vec2 = egui::vec2(640.0, 420.0);
+
+/// Frames that a change may take: the change, the picture, and thumbnails at the start.
+const MAX_STEPS: u64 = 24;
+
+/// Frames of a quarter of a second until an undo point is set.
+const STEPS_TO_REST: usize = 5;
+
+/// The program as it starts.
+pub(crate) fn start(options: AppOptions) -> Program {
+    start_with(options, |_context| {})
+}
+
+/// The program as it starts; `look` sees what it is made from.
+pub(crate) fn start_with(options: AppOptions, look: impl FnOnce(&eframe::CreationContext<'_>)) -> Program {
+    let mut program = Harness::builder()
+        .with_size(WINDOW_PT)
+        .with_max_steps(MAX_STEPS)
+        .wgpu_setup(wgpu_configuration(&AdapterChoice::Software).wgpu_setup)
+        .build_eframe(|context| {
+            look(context);
+            App::new(context, options)
+        });
+    program.run();
+    program
+}
+
+/// The program with a scene in it, opened from a file.
+pub(crate) fn start_with_scene(scene: Scene) -> Program {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("scene.toml");
+    SceneFile::new(scene).save(&path).expect("a scene that can be saved");
+    start(AppOptions { scene: Some(path), ..AppOptions::default() })
+}
+
+/// Lets a change come to rest, so that it can be undone by itself.
+pub(crate) fn rest(program: &mut Program) {
+    program.run();
+    program.run_steps(STEPS_TO_REST);
+}
+
+/// The picture in the viewport.
+pub(crate) fn picture(program: &Program) -> Picture {
+    program.state().picture().unwrap_or_else(|reason| panic!("no picture: {reason}"))
+}
+
+/// Presses a key together with Ctrl or Cmd, and what else is held.
+pub(crate) fn press(program: &mut Program, modifiers: Modifiers, key: egui::Key) {
+    program.key_press_modifiers(Modifiers::COMMAND | modifiers, key);
+    program.run();
+}
+
+/// Clicks a button.
+pub(crate) fn click(program: &mut Program, name: &str) {
+    program.get_by_role_and_label(Role::Button, name).click_accesskit();
+    program.run();
+}
+
+/// Moves a slider.
+pub(crate) fn set_slider(program: &mut Program, name: &str, value: f64) {
+    program.get_by_role_and_label(Role::Slider, name).set_value_accesskit(value);
+    program.run();
+}

@@ -1,0 +1,9 @@
+//! The desktop program without its window, driven through the names that screen readers see.
+
+mod device_loss;
+mod documents;
+mod harness;
+mod navigation;
+mod parameters;
+mod preconditions;
+mod rest;

@@ -1,0 +1,137 @@
+//! For each parameter a scene in which it matters.
+//!
+//! Exposure is manual, because the automatic one evens out what brightness does.
+
+use tyndall_scene::{ExposureMode, Scene, SkyMode, SunPosition};
+
+/// A scene and the parameters that are tried in it.
+pub(crate) struct Precondition {
+    /// What makes the parameters matter.
+    pub(crate) name: &'static str,
+    /// Prepares a new scene.
+    pub(crate) prepare: fn(&mut Scene),
+    /// Paths, with a value where the usual step would not show.
+    pub(crate) parameters: &'static [(&'static str, Option<f64>)],
+}
+
+/// All preconditions. A parameter that stands in none of them fails the test.
+pub(crate) const ALL: &[Precondition] = &[
+    Precondition {
+        name: "a clear day above a checkered ground",
+        prepare: |scene| {
+            manual(scene);
+            checker(scene);
+        },
+        parameters: &[
+            ("camera.x_m", None),
+            ("camera.y_m", None),
+            ("camera.altitude_m", None),
+            ("camera.heading_deg", None),
+            ("camera.pitch_deg", None),
+            ("camera.roll_deg", None),
+            ("camera.field_of_view_deg", None),
+            ("sun.elevation_deg", None),
+            ("sun.azimuth_deg", None),
+            ("sun.position", None),
+            ("sun.brightness", None),
+            ("ground.red", None),
+            ("ground.green", None),
+            ("ground.blue", None),
+            ("ground.pattern", None),
+            ("ground.tile_m", None),
+            ("film.exposure", None),
+            ("film.ev100", None),
+            ("film.contrast", None),
+            ("film.saturation", None),
+            ("film.tone_map", None),
+            ("film.dither", None),
+        ],
+    },
+    Precondition {
+        name: "a low sun in view",
+        prepare: |scene| {
+            manual(scene);
+            scene.film.ev100 = 11.0;
+            scene.sun.elevation_deg = 3.0;
+            scene.sun.azimuth_deg = 20.0;
+            scene.camera.pitch_deg = 8.0;
+        },
+        parameters: &[
+            ("atmosphere.planet_radius_km", Some(2000.0)),
+            // Above 100 km there is too little air to be seen.
+            ("atmosphere.top_altitude_km", Some(41.0)),
+            ("atmosphere.air_density", None),
+            ("atmosphere.air_scale_height_km", None),
+            ("atmosphere.air_model", None),
+            ("atmosphere.aerosol_optical_depth", None),
+            ("atmosphere.aerosol_angstrom", None),
+            ("atmosphere.aerosol_albedo", None),
+            ("atmosphere.aerosol_asymmetry", None),
+            ("atmosphere.aerosol_scale_height_km", None),
+            ("atmosphere.aerosol_phase", None),
+            ("atmosphere.ozone_du", None),
+            ("atmosphere.ozone_altitude_km", None),
+            ("atmosphere.ozone_half_width_km", None),
+            ("sky.mode", None),
+            ("sky.table_elevations", Some(40.0)),
+            ("sky.table_azimuths", Some(16.0)),
+            ("sky.march_steps", Some(8.0)),
+        ],
+    },
+    Precondition {
+        name: "the sun's disc, large and dark enough not to be clipped",
+        prepare: |scene| {
+            manual(scene);
+            scene.film.ev100 = 25.0;
+            scene.film.compensation_ev = -8.0;
+            scene.sun.elevation_deg = 10.0;
+            scene.sun.angular_radius_deg = 4.0;
+        },
+        parameters: &[("sun.disc", None), ("sun.angular_radius_deg", None), ("sun.limb_darkening", None)],
+    },
+    Precondition {
+        name: "the sun by date",
+        prepare: |scene| {
+            manual(scene);
+            scene.sun.position = SunPosition::Date;
+        },
+        parameters: &[
+            ("sun.year", None),
+            ("sun.month", None),
+            ("sun.day", None),
+            ("sun.time_h", None),
+            ("sun.utc_offset_h", None),
+            ("sun.latitude_deg", None),
+            ("sun.longitude_deg", None),
+        ],
+    },
+    Precondition {
+        name: "the paper's dome",
+        prepare: |scene| {
+            manual(scene);
+            scene.sky.mode = SkyMode::VertexDome;
+        },
+        parameters: &[("sky.dome_rings", Some(8.0)), ("sky.dome_segments", Some(12.0))],
+    },
+    Precondition {
+        name: "the automatic exposure",
+        prepare: |scene| scene.film.exposure = ExposureMode::Auto,
+        parameters: &[("film.compensation_ev", None)],
+    },
+    Precondition {
+        name: "any scene",
+        prepare: |_scene| {},
+        parameters: &[("image.width_px", None), ("image.height_px", None)],
+    },
+];
+
+fn manual(scene: &mut Scene) {
+    scene.film.exposure = ExposureMode::Manual;
+}
+
+/// High up and looking down a little, so that the squares are larger than pixels.
+fn checker(scene: &mut Scene) {
+    scene.set_text("ground.pattern", "checker").expect("a pattern of the ground");
+    scene.camera.altitude_m = 30.0;
+    scene.camera.pitch_deg = -5.0;
+}
