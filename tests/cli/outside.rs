@@ -20,35 +20,42 @@ mod signals {
 
     use crate::program::Place;
 
-    /// A render that takes long enough on any machine, seen to have reached the frame.
-    fn start(place: &Place) -> Child {
+    /// Two moments: the GPU at work, and a part of the file written.
+    const STAGES: [&str; 2] = ["rendering", "writing the file"];
+
+    /// A render that takes long enough on any machine, seen to have reached the stage.
+    fn start(place: &Place, stage: &str) -> Child {
         let words = ["render", "preset:noon", "-o", "a.exr", "--size", "2048x2048", "--compression", "piz"];
         let mut command = place.command(&[&words[..], &["--float", "--progress", "json"]].concat());
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
         let stdout = child.stdout.take().expect("piped");
         let mut lines = BufReader::new(stdout).lines().map_while(Result::ok);
-        assert!(lines.any(|line| line.contains("\"rendering\"")), "the frame is never reached");
+        assert!(lines.any(|line| line.contains(&format!("\"{stage}\""))), "{stage} is never reached");
         child
     }
 
-    fn ended_by(signal: &str) -> (Option<i32>, Vec<String>) {
-        let place = Place::new();
-        place.write("a.exr", "an older picture");
-        let mut child = start(&place);
-        let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().expect("kill runs");
-        assert!(sent.success(), "{signal} was not sent");
-        let code = child.wait().expect("it ends").code();
-        assert_eq!(place.read("a.exr"), b"an older picture", "{signal}: the older file is untouched");
-        (code, place.files())
+    /// Exit codes of renders that get the signal at each of the stages.
+    fn ended_by(signal: &str) -> [Option<i32>; 2] {
+        STAGES.map(|stage| {
+            let place = Place::new();
+            place.write("a.exr", "an older picture");
+            let mut child = start(&place, stage);
+            let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().expect("kill runs");
+            assert!(sent.success(), "{signal} was not sent");
+            let code = child.wait().expect("it ends").code();
+            assert_eq!(place.read("a.exr"), b"an older picture", "{signal} while {stage}: the older file is untouched");
+            assert_eq!(place.files(), ["a.exr"], "{signal} while {stage}: no temporary file");
+            code
+        })
     }
 
     #[test]
     fn ctrl_c_leaves_no_partial_file() {
-        assert_eq!(ended_by("-INT"), (Some(130), vec!["a.exr".to_owned()]), "exit code, and no temporary file");
+        assert_eq!(ended_by("-INT"), [Some(130); 2], "exit codes while {STAGES:?}");
     }
 
     #[test]
     fn termination_leaves_no_partial_file_and_says_that_the_work_can_be_repeated() {
-        assert_eq!(ended_by("-TERM"), (Some(75), vec!["a.exr".to_owned()]), "exit code, and no temporary file");
+        assert_eq!(ended_by("-TERM"), [Some(75); 2], "exit codes while {STAGES:?}");
     }
 }

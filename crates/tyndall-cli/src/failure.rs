@@ -33,7 +33,10 @@ pub enum Failure {
     Interrupted(Signal),
     /// The result cannot be printed.
     #[error("cannot write to standard output: {0}")]
-    Stdout(#[from] io::Error),
+    Stdout(io::Error),
+    /// The system does not let the program listen to signals.
+    #[error("cannot listen to Ctrl-C: {0}")]
+    Signals(io::Error),
 }
 
 impl From<RenderError> for Failure {
@@ -53,7 +56,7 @@ impl Failure {
         match self {
             Self::Usage(_) | Self::Scene(_) => Exit::Usage,
             Self::Gpu(error) => exit_of_gpu(error),
-            Self::Render(_) | Self::Stdout(_) => Exit::Render,
+            Self::Render(_) | Self::Stdout(_) | Self::Signals(_) => Exit::Render,
             Self::Io(error) => exit_of_io(error),
             Self::Interrupted(signal) => signal.exit(),
         }

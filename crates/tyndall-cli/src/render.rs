@@ -85,7 +85,7 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
     let format = arguments.format.for_file(&arguments.output)?;
     let scene = scene_of(arguments)?;
     check_writable(&arguments.output)?;
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
     let options = GpuOptions { adapter: arguments.adapter.clone(), max_memory_bytes: arguments.max_memory };
     let job = Job { scene: &scene, format, options: &options, interrupt: &interrupt, progress };
     let frame = job.run()?;
