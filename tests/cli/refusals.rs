@@ -118,6 +118,6 @@ fn without_a_driver_the_program_names_the_package_to_install() {
 fn a_wrong_command_line_is_refused_with_a_way_to_the_help() {
     let place = Place::new();
     place.run(&["paint"]).refused(2, "--help");
-    place.run(&["render", "preset:noon", "-o", "a.png", "--sise", "1x1"]).refused(2, "--size");
+    place.run(&["render", "preset:noon", "-o", "a.png", "--sizes", "1x1"]).refused(2, "--size");
     assert_eq!(place.run(&[]).code, Some(2), "nothing to do");
 }
