@@ -34,19 +34,19 @@ const fn plain(key: Key) -> KeyboardShortcut {
 }
 
 impl Action {
-    /// All, those with more modifiers first: a shortcut with Ctrl alone would take the one with Ctrl and Shift too.
+    /// All, in the order of the help.
     pub(crate) const ALL: &'static [Self] = &[
-        Self::SaveAs,
-        Self::Redo,
         Self::New,
         Self::Open,
         Self::Save,
+        Self::SaveAs,
+        Self::Render,
         Self::Quit,
         Self::Undo,
+        Self::Redo,
         Self::Reset,
         Self::CopyCommand,
         Self::CopyScene,
-        Self::Render,
         Self::FullViewport,
         Self::ResetLayout,
         Self::Help,
@@ -102,12 +102,14 @@ impl Action {
     }
 }
 
-/// The commands whose keys were pressed since the last frame.
+/// The commands whose keys were pressed since the last frame. Those with Shift are asked first: a shortcut with Ctrl alone
+/// would take the one with Ctrl and Shift too.
 pub(crate) fn pressed(ctx: &egui::Context) -> Vec<Action> {
-    let pressed = |action: &&Action| {
-        action.shortcuts().iter().any(|shortcut| ctx.input_mut(|input| input.consume_shortcut(shortcut)))
-    };
-    Action::ALL.iter().filter(pressed).copied().collect()
+    let mut all: Vec<_> =
+        Action::ALL.iter().flat_map(|action| action.shortcuts().iter().map(|s| (*action, s))).collect();
+    all.sort_by_key(|(_, shortcut)| !shortcut.modifiers.shift);
+    all.retain(|(_, shortcut)| ctx.input_mut(|input| input.consume_shortcut(shortcut)));
+    all.into_iter().map(|(action, _)| action).collect()
 }
 
 #[cfg(test)]

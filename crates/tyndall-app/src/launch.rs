@@ -16,7 +16,7 @@ const APP_ID: &str = "tyndall";
 const EXIT_NO_ADAPTER: u8 = 3;
 
 const WINDOW_PT: egui::Vec2 = vec2(1440.0, 900.0);
-const MIN_WINDOW_PT: egui::Vec2 = vec2(640.0, 420.0);
+const MIN_WINDOW_PT: egui::Vec2 = vec2(800.0, 520.0);
 
 /// Opens the window and returns when it is closed.
 #[must_use]

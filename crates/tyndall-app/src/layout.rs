@@ -22,7 +22,7 @@ impl Pane {
     /// Title of the tab.
     pub(crate) fn title(self) -> &'static str {
         match self {
-            Self::Viewport => "View",
+            Self::Viewport => "Viewport",
             Self::Parameters => "Parameters",
             Self::Camera => "Camera",
             Self::Export => "Export",

@@ -1,6 +1,6 @@
 //! The menu bar.
 
-use egui::{Button, MenuBar, RichText, Ui};
+use egui::{Button, MenuBar, RichText, ThemePreference, Ui};
 use tyndall_scene::presets;
 
 use crate::{
@@ -76,9 +76,21 @@ fn view(ui: &mut Ui, app: &mut App) {
     ui.separator();
     entries(ui, app, &[Action::FullViewport, Action::ResetLayout]);
     ui.separator();
-    ui.horizontal(egui::widgets::global_theme_preference_buttons);
+    theme(ui);
     ui.separator();
     egui::gui_zoom::zoom_menu_buttons(ui);
+}
+
+fn theme(ui: &mut Ui) {
+    let mut chosen = ui.ctx().options(|options| options.theme_preference);
+    for (theme, name) in [
+        (ThemePreference::System, "Theme of the system"),
+        (ThemePreference::Dark, "Dark theme"),
+        (ThemePreference::Light, "Light theme"),
+    ] {
+        ui.radio_value(&mut chosen, theme, name);
+    }
+    ui.ctx().set_theme(chosen);
 }
 
 fn entries(ui: &mut Ui, app: &mut App, actions: &[Action]) {

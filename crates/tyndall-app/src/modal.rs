@@ -16,6 +16,9 @@ use crate::{
 /// Widest a message gets.
 const WIDTH_PT: f32 = 560.0;
 
+/// Highest the help gets before it scrolls.
+const HELP_PT: f32 = 620.0;
+
 /// Room around a message.
 const MARGIN_PT: i8 = 18;
 
@@ -98,9 +101,14 @@ fn contents(ui: &mut Ui, question: Question, recent: &Recent, dialogs: &FileDial
 
 fn error(ui: &mut Ui, title: String, report: String) -> Result<Answer, Question> {
     ui.heading(&title);
-    ScrollArea::both().max_height(300.0).show(ui, |ui| {
-        ui.add(egui::Label::new(RichText::new(report.trim_end()).monospace()).extend());
-    });
+    // A sentence, then an excerpt of the file whose columns must stay in line.
+    let (sentence, excerpt) = report.trim_end().split_once('\n').unwrap_or((report.trim_end(), ""));
+    ui.label(sentence.trim_start_matches("error: "));
+    if !excerpt.is_empty() {
+        ScrollArea::both().max_height(300.0).show(ui, |ui| {
+            ui.add(egui::Label::new(RichText::new(excerpt).monospace()).extend());
+        });
+    }
     let copy = |ui: &mut Ui| {
         let close = ui.button("Close").clicked();
         if ui.button("Copy").clicked() {
@@ -233,7 +241,7 @@ const GESTURES: [(&str, &str); 9] = [
 
 fn help(ui: &mut Ui) -> Result<Answer, Question> {
     ui.heading("Keyboard and mouse");
-    ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+    ScrollArea::vertical().max_height(HELP_PT).show(ui, |ui| {
         Grid::new("shortcuts").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
             for action in Action::ALL.iter().filter(|action| !action.shortcuts().is_empty()) {
                 let keys: Vec<_> =

@@ -3,15 +3,20 @@
 use std::f32::consts::FRAC_PI_2;
 
 use egui::{
-    Align, Button, Checkbox, ComboBox, DragValue, Label, Layout, Response, RichText, Sense, Slider, SliderClamping,
-    Stroke, Ui, Vec2, vec2,
+    Align, Button, Checkbox, ComboBox, DragValue, Label, Layout, Rangef, Response, RichText, Sense, Slider,
+    SliderClamping, Stroke, Ui, Vec2, vec2,
 };
 use tyndall_core::{ParamInfo, ParamKind, ParamSet, Scale};
 
-/// Widths of the columns; the slider takes the rest.
-const LABEL_PT: f32 = 132.0;
-const NUMBER_PT: f32 = 92.0;
+/// Widths of the columns in a wide panel, and the least they shrink to in a narrow one; the slider takes the rest.
+const LABEL_PT: Rangef = Rangef { min: 76.0, max: 132.0 };
+const NUMBER_PT: Rangef = Rangef { min: 62.0, max: 92.0 };
 const RESET_PT: f32 = 20.0;
+const MIN_SLIDER_PT: f32 = 24.0;
+
+/// Shares of the panel's width that names and numbers get between these limits.
+const LABEL_SHARE: f32 = 0.36;
+const NUMBER_SHARE: f32 = 0.26;
 
 /// Dragging a number over this many points covers the range of a linear parameter.
 const POINTS_PER_RANGE: f64 = 500.0;
@@ -64,7 +69,8 @@ pub(crate) fn show(ui: &mut Ui, group: &str, set: &mut dyn ParamSet, index: usiz
 fn label(ui: &mut Ui, info: &ParamInfo, changed: bool) -> Response {
     let text = info.label();
     let text = if changed { RichText::new(text).strong() } else { RichText::new(text) };
-    let size = vec2(LABEL_PT, ui.spacing().interact_size.y);
+    let width = LABEL_PT.clamp(ui.available_width() * LABEL_SHARE);
+    let size = vec2(width, ui.spacing().interact_size.y);
     let column = Layout::left_to_right(Align::Center);
     let inner = ui.allocate_ui_with_layout(size, column, |ui| {
         ui.set_min_size(size);
@@ -92,7 +98,9 @@ fn number(ui: &mut Ui, info: &ParamInfo, name: &str, value: &mut f64) -> Respons
     let whole = info.kind == ParamKind::Integer;
     let decimals = if whole { 0 } else { MAX_DECIMALS };
     let spacing = ui.spacing().item_spacing.x;
-    ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_PT - RESET_PT - 2.0 * spacing).max(30.0);
+    let number_pt = NUMBER_PT.clamp(ui.max_rect().width() * NUMBER_SHARE);
+    let slider_pt = ui.available_width() - number_pt - RESET_PT - 2.0 * spacing;
+    ui.spacing_mut().slider_width = slider_pt.max(MIN_SLIDER_PT);
     let mut slider = Slider::new(value, low..=high)
         .show_value(false)
         .logarithmic(is_log)
@@ -111,7 +119,7 @@ fn number(ui: &mut Ui, info: &ParamInfo, name: &str, value: &mut f64) -> Respons
         .speed(if whole { speed.max(0.05) } else { speed })
         .max_decimals(decimals)
         .suffix(info.unit_suffix())
-        .min_size(vec2(NUMBER_PT, ui.spacing().interact_size.y));
+        .min_size(vec2(number_pt, ui.spacing().interact_size.y));
     let number = ui.add(number);
     rename(ui, &number, &format!("{name} (number)"));
     slider | number

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use egui::{Color32, Grid, ScrollArea, Sense, Ui, ecolor::Hsva, vec2};
+use egui::{Color32, Grid, ScrollArea, Sense, Ui, Visuals, ecolor::Hsva, vec2};
 use egui_plot::{Line, Plot, PlotPoints};
 
 use crate::engine::{Engine, FrameTimings};
@@ -62,7 +62,7 @@ fn passes(ui: &mut Ui, newest: &FrameTimings, all: &VecDeque<FrameTimings>) {
             let position = names.iter().position(|name| *name == pass.name).unwrap_or_default();
             ui.horizontal(|ui| {
                 let (rect, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::empty());
-                ui.painter().rect_filled(rect, 2.0, colour(position));
+                ui.painter().rect_filled(rect, 2.0, colour(ui.visuals(), position));
                 ui.label(pass.name);
             });
             ui.monospace(format!("{:8.2} ms", pass.ms));
@@ -96,19 +96,21 @@ fn pass_names(all: &VecDeque<FrameTimings>) -> Vec<&'static str> {
 }
 
 /// Colour of a pass in plot and table: even steps around the circle of hues, which no number of passes exhausts.
-fn colour(position: usize) -> Color32 {
+fn colour(visuals: &Visuals, position: usize) -> Color32 {
     const GOLDEN_TURN: f32 = 0.618_034;
-    Hsva::new((0.58 + position as f32 * GOLDEN_TURN).fract(), 0.62, 0.9, 1.0).into()
+    let (saturation, value) = if visuals.dark_mode { (0.6, 0.9) } else { (0.85, 0.7) };
+    Hsva::new((0.58 + position as f32 * GOLDEN_TURN).fract(), saturation, value, 1.0).into()
 }
 
 /// One line a pass over the last frames, in the colours of the table.
 fn plot(ui: &mut Ui, engine: &Engine) {
+    let visuals = ui.visuals().clone();
     let line = |(position, name): (usize, &'static str)| {
         let points = engine.timings.iter().enumerate().map(|(frame, timings)| {
             let ms = timings.passes.iter().find(|pass| pass.name == name).map_or(0.0, |pass| pass.ms);
             [frame as f64, ms]
         });
-        Line::new(name, points.collect::<PlotPoints<'_>>()).color(colour(position)).width(1.6)
+        Line::new(name, points.collect::<PlotPoints<'_>>()).color(colour(&visuals, position)).width(1.6)
     };
     Plot::new("timings")
         .allow_drag(false)
