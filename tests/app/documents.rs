@@ -11,7 +11,7 @@ use egui_kittest::kittest::Queryable as _;
 use tyndall_app::AppOptions;
 use tyndall_scene::Scene;
 
-use crate::harness::{Program, click, press, rest, set_slider, start, start_with_scene};
+use crate::harness::{Program, click, press, quick_scene, rest, set_slider, start, start_with_scene};
 
 const TEXT: &str = "format = 1\ntitle = \"Mine\"\n# the evening\n[sun]\nelevation_deg = 4 # low\n";
 
@@ -46,19 +46,19 @@ fn a_broken_file_is_explained_and_the_scene_stays() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("broken.toml");
     fs::write(&path, "format = 1\n[sun]\nelevatoin_deg = 4\n").expect("a broken scene file");
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     open_by_path(&mut program, &path);
     let report = program.get_by_label_contains("did you mean");
     let text = format!("{report:?}");
     assert!(text.contains("sun.elevation_deg"), "{text}");
-    assert_eq!(program.state().scene(), &Scene::default(), "the scene stays");
+    assert_eq!(program.state().scene(), &quick_scene(), "the scene stays");
     click(&mut program, "Close");
     assert!(program.query_by_label_contains("did you mean").is_none(), "the message is gone");
 }
 
 #[test]
 fn changes_are_not_lost_without_a_question() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     set_slider(&mut program, "sun: Elevation", 9.0);
     for (answer, elevation_deg) in [("Cancel", 9.0), ("Discard", Scene::default().sun.elevation_deg)] {
         press(&mut program, Modifiers::NONE, Key::N);
@@ -72,7 +72,8 @@ fn changes_are_not_lost_without_a_question() {
 
 #[test]
 fn a_preset_is_opened_from_the_gallery_and_undo_does_not_leave_it() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
+    click(&mut program, "Gallery");
     click(&mut program, "Preset: Sunset");
     assert_eq!(program.state().scene().title, "Sunset", "opened");
     press(&mut program, Modifiers::NONE, Key::Z);
@@ -97,7 +98,7 @@ fn a_file_dropped_on_the_window_is_opened() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("mine.toml");
     fs::write(&path, TEXT).expect("a scene file");
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     program.input_mut().dropped_files.push(Arc::new(Dropped(path)));
     program.run();
     assert_eq!(program.state().scene().title, "Mine", "opened");
@@ -126,7 +127,7 @@ fn unsaved_changes_survive_a_crash() {
 
 #[test]
 fn redo_takes_an_undo_back() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     set_slider(&mut program, "sun: Elevation", 20.0);
     rest(&mut program);
     press(&mut program, Modifiers::NONE, Key::Z);
@@ -140,7 +141,7 @@ fn redo_takes_an_undo_back() {
 
 #[test]
 fn the_help_lists_the_shortcuts() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     program.key_press(Key::F1);
     program.run();
     for text in ["Undo", "Full viewport", "Double click on a name"] {

@@ -4,7 +4,7 @@ use egui::{Modifiers, accesskit::Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use tyndall_app::{App, AppOptions, wgpu_configuration};
 use tyndall_gpu::AdapterChoice;
-use tyndall_scene::{Scene, SceneFile};
+use tyndall_scene::{Orders, Scene, SceneFile};
 
 /// The program with its state.
 pub(crate) type Program = Harness<'static, App>;
@@ -36,7 +36,8 @@ pub(crate) fn start_with(options: AppOptions, look: impl FnOnce(&eframe::Creatio
             look(context);
             App::new(context, options)
         });
-    program.run();
+    // In place of the gallery, whose thumbnails take longer than most tests.
+    click(&mut program, "Log");
     program
 }
 
@@ -46,6 +47,13 @@ pub(crate) fn start_with_scene(scene: Scene) -> Program {
     let path = folder.path().join("scene.toml");
     SceneFile::new(scene).save(&path).expect("a scene that can be saved");
     start(AppOptions { scene: Some(path), ..AppOptions::default() })
+}
+
+/// A scene that is drawn quickly: light counts that was scattered once.
+pub(crate) fn quick_scene() -> Scene {
+    let mut scene = Scene::default();
+    scene.sky.orders = Orders::Single;
+    scene
 }
 
 /// Lets a change come to rest, so that it can be undone by itself.

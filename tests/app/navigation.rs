@@ -2,9 +2,9 @@
 
 use egui::{Event, Key, MouseWheelUnit, PointerButton, Vec2, accesskit::Role, vec2};
 use egui_kittest::kittest::Queryable as _;
-use tyndall_scene::{CameraParams, Scene};
+use tyndall_scene::CameraParams;
 
-use crate::harness::{Program, click, picture, rest, start_with_scene};
+use crate::harness::{Program, click, picture, quick_scene, rest, start_with_scene};
 
 fn camera(program: &Program) -> CameraParams {
     program.state().scene().camera.clone()
@@ -33,7 +33,7 @@ fn pointer(pos: egui::Pos2, button: PointerButton, pressed: bool) -> Event {
 
 #[test]
 fn dragging_turns_the_view_with_a_preview_and_refines_it_at_rest() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     let (full, before) = (picture(&program).0, camera(&program));
     let end = start_drag(&mut program, PointerButton::Primary, vec2(-60.0, 20.0));
     let turned = camera(&program);
@@ -47,7 +47,7 @@ fn dragging_turns_the_view_with_a_preview_and_refines_it_at_rest() {
 
 #[test]
 fn dragging_with_the_middle_button_orbits() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     let before = camera(&program);
     start_drag(&mut program, PointerButton::Middle, vec2(50.0, 0.0));
     let moved = camera(&program);
@@ -56,7 +56,7 @@ fn dragging_with_the_middle_button_orbits() {
 
 #[test]
 fn the_wheel_changes_the_field_of_view() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     let centre = middle(&program);
     program.hover_at(centre);
     program.event(Event::MouseWheel {
@@ -72,7 +72,7 @@ fn the_wheel_changes_the_field_of_view() {
 
 #[test]
 fn keys_fly_the_camera_while_they_are_held() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     let centre = middle(&program);
     program.hover_at(centre);
     program.key_down(Key::E);
@@ -88,7 +88,7 @@ fn keys_fly_the_camera_while_they_are_held() {
 
 #[test]
 fn buttons_turn_the_camera_to_what_they_name() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     for (name, heading_deg, pitch_deg) in [("East", 90.0, 10.0), ("Sun", 0.0, 35.0), ("Zenith", 0.0, 90.0)] {
         click(&mut program, name);
         let CameraParams { heading_deg: heading, pitch_deg: pitch, .. } = camera(&program);

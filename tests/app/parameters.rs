@@ -6,7 +6,7 @@ use tyndall_app::input_name;
 use tyndall_core::{ParamInfo, ParamKind, Scale};
 use tyndall_scene::Scene;
 
-use crate::harness::{Program, click, picture, press, rest, set_slider, start_with_scene};
+use crate::harness::{Program, click, picture, press, quick_scene, rest, set_slider, start_with_scene};
 use crate::preconditions::{self, Precondition};
 
 /// Usual step: a factor on logarithmic scales, a share of the range on linear ones. Odd, so that nothing periodic (tiles
@@ -45,7 +45,7 @@ fn every_other_parameter_changes_the_picture_and_is_undone_to_the_byte() {
 
 #[test]
 fn a_parameter_without_effect_is_disabled() {
-    let program = start_with_scene(Scene::default());
+    let program = start_with_scene(quick_scene());
     for (name, enabled) in [("sun: Elevation", true), ("sun: Latitude", false), ("film: Ev100", false)] {
         let node = program.get_by_role_and_label(Role::Slider, name);
         assert_eq!(!egui_kittest::kittest::NodeT::accesskit_node(&node).is_disabled(), enabled, "{name}");
@@ -54,7 +54,7 @@ fn a_parameter_without_effect_is_disabled() {
 
 #[test]
 fn reset_buttons_give_the_defaults_back() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     set_slider(&mut program, "sun: Elevation", 5.0);
     set_slider(&mut program, "sun: Azimuth", 50.0);
     click(&mut program, "Reset sun: Elevation");
@@ -69,7 +69,7 @@ fn reset_buttons_give_the_defaults_back() {
 
 #[test]
 fn the_search_field_leaves_what_it_finds() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     let search = program.get_by_label("Search parameters");
     search.focus();
     search.type_text("ozone");
@@ -83,6 +83,7 @@ fn walk(precondition: &Precondition) {
     let mut scene = Scene::default();
     (precondition.prepare)(&mut scene);
     let mut program = start_with_scene(scene.clone());
+    rest(&mut program);
     for (path, value) in precondition.parameters {
         try_one(&mut program, &scene, path, *value)
             .unwrap_or_else(|what| panic!("{}: {path}: {what}", precondition.name));
@@ -115,6 +116,7 @@ fn try_one(program: &mut Program, scene: &Scene, path: &str, value: Option<f64>)
     }
 
     press(program, Modifiers::NONE, Key::Z);
+    rest(program);
     check(program.state().scene() == scene, || "undo leads to another scene".to_owned())?;
     check(picture(program) == before, || "undo leads to other bytes".to_owned())
 }

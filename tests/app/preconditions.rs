@@ -1,8 +1,9 @@
 //! For each parameter a scene in which it matters.
 //!
-//! Exposure is manual, because the automatic one evens out what brightness does.
+//! Exposure is manual, because the automatic one evens out what brightness does. Light counts that was scattered once,
+//! except where all orders matter: the tables of the others take seconds on a software adapter.
 
-use tyndall_scene::{ExposureMode, Scene, SkyMode, SunPosition};
+use tyndall_scene::{ExposureMode, Orders, OrdersDetail, Scene, SkyMode, SunPosition};
 
 /// A scene and the parameters that are tried in it.
 pub(crate) struct Precondition {
@@ -114,18 +115,34 @@ pub(crate) const ALL: &[Precondition] = &[
         parameters: &[("sky.dome_rings", Some(8.0)), ("sky.dome_segments", Some(12.0))],
     },
     Precondition {
+        name: "all orders of scattering, coarsely",
+        prepare: |scene| {
+            scene.film.exposure = ExposureMode::Manual;
+            scene.sky.orders_detail = OrdersDetail::Preview;
+        },
+        parameters: &[("sky.orders", None), ("sky.orders_detail", None)],
+    },
+    Precondition {
         name: "the automatic exposure",
-        prepare: |scene| scene.film.exposure = ExposureMode::Auto,
+        prepare: |scene| {
+            single(scene);
+            scene.film.exposure = ExposureMode::Auto;
+        },
         parameters: &[("film.compensation_ev", None)],
     },
     Precondition {
         name: "any scene",
-        prepare: |_scene| {},
+        prepare: single,
         parameters: &[("image.width_px", None), ("image.height_px", None)],
     },
 ];
 
+fn single(scene: &mut Scene) {
+    scene.sky.orders = Orders::Single;
+}
+
 fn manual(scene: &mut Scene) {
+    single(scene);
     scene.film.exposure = ExposureMode::Manual;
 }
 

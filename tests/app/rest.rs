@@ -2,10 +2,8 @@
 
 use std::time::Duration;
 
+use crate::harness::{Program, picture, quick_scene, rest, set_slider, start_with_scene};
 use egui::ViewportId;
-use tyndall_scene::Scene;
-
-use crate::harness::{Program, picture, rest, set_slider, start_with_scene};
 
 /// Frames that the program asks for in a time, as its window would give them.
 fn frames_in(program: &mut Program, time: Duration) -> u32 {
@@ -34,7 +32,7 @@ fn settle(program: &mut Program) {
 
 #[test]
 fn at_rest_the_window_repaints_at_most_twice_in_five_seconds() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     settle(&mut program);
     let drawn = program.state().frames_drawn();
     let frames = frames_in(&mut program, Duration::from_secs(5));
@@ -44,7 +42,7 @@ fn at_rest_the_window_repaints_at_most_twice_in_five_seconds() {
 
 #[test]
 fn after_a_change_the_window_comes_to_rest_again() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     set_slider(&mut program, "sun: Elevation", 12.0);
     settle(&mut program);
     let frames = frames_in(&mut program, Duration::from_secs(5));
@@ -53,7 +51,7 @@ fn after_a_change_the_window_comes_to_rest_again() {
 
 #[test]
 fn a_repaint_without_a_change_draws_no_picture() {
-    let mut program = start_with_scene(Scene::default());
+    let mut program = start_with_scene(quick_scene());
     let (before, drawn) = (picture(&program), program.state().frames_drawn());
     program.run_steps(10);
     assert_eq!(program.state().frames_drawn(), drawn, "nothing has changed");

@@ -10,6 +10,7 @@ mod action;
 mod app;
 mod banner;
 mod commands;
+mod detail;
 mod document;
 mod engine;
 mod file_dialog;

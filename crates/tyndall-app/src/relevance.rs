@@ -1,6 +1,6 @@
 //! Which parameters have no effect at present, and why: the app shows those disabled.
 
-use tyndall_scene::{ExposureMode, Scene, SkyMode, SunPosition};
+use tyndall_scene::{ExposureMode, Orders, Scene, SkyMode, SunPosition};
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
 pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
@@ -12,6 +12,9 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
         }
         ("ground", "tile_m") if scene.ground.pattern.name() == "plain" => {
             Some("The ground is plain; set Pattern to checker.")
+        }
+        ("sky", "orders_detail") if scene.sky.orders == Orders::Single => {
+            Some("Light counts that was scattered once; set Orders to all.")
         }
         ("sky", "dome_rings" | "dome_segments") if scene.sky.mode != SkyMode::VertexDome => {
             Some("The sky is computed at every pixel; set Mode to vertex-dome.")

@@ -9,6 +9,7 @@ use tyndall_render::FrameTarget;
 use tyndall_scene::{ImageParams, Scene};
 
 use crate::{
+    detail::Detail,
     engine::{Engine, Problem},
     preview::{Preview, reduced},
 };
@@ -41,6 +42,7 @@ pub(crate) struct Stage {
     /// Why the picture shown is not that of the scene.
     problem: Option<Problem>,
     preview: Preview,
+    detail: Detail,
     refine_at_s: Option<f64>,
     timings_tries: u32,
     ev100: Option<f64>,
@@ -61,6 +63,7 @@ impl Stage {
             shown: None,
             problem,
             preview: Preview::default(),
+            detail: Detail::default(),
             refine_at_s: None,
             timings_tries: 0,
             ev100: None,
@@ -75,6 +78,7 @@ impl Stage {
 
     /// The renderer, to draw something else with it.
     pub(crate) fn engine_mut(&mut self) -> Option<&mut Engine> {
+        self.detail.forget();
         self.engine.as_mut().ok()
     }
 
@@ -104,8 +108,13 @@ impl Stage {
         self.ev100
     }
 
+    /// Whether the picture is complete and measured, so that the renderer may draw something else.
+    pub(crate) fn is_done(&self) -> bool {
+        self.shown.is_some() && self.refine_at_s.is_none() && !self.awaits_timings()
+    }
+
     /// Whether the window will wake up for the timings of the picture.
-    pub(crate) fn awaits_timings(&self) -> bool {
+    fn awaits_timings(&self) -> bool {
         self.timings_tries > 0 && self.engine().is_some_and(Engine::awaits_timings)
     }
 
@@ -128,6 +137,7 @@ impl Stage {
     pub(crate) fn rebuild(&mut self) {
         self.targets = [None, None];
         (self.tried, self.shown, self.refine_at_s) = (None, None, None);
+        self.detail.forget();
         // The old one gives its memory back first.
         self.engine = Err(Problem { text: String::new(), rebuild: true, lost: false });
         self.engine = Engine::new(&self.state);
@@ -143,11 +153,14 @@ impl Stage {
         let wanted = Wanted { scene: picture_of(scene), view_px };
         if self.tried.as_ref() != Some(&wanted) {
             let divisor = if moving { self.preview.divisor(view_px) } else { 1 };
-            self.refine_at_s = (divisor > 1).then_some(now_s + REST_S);
+            let quick = self.detail.quick(scene);
+            let is_preview = divisor > 1 || quick != *scene;
+            self.refine_at_s = is_preview.then_some(now_s + REST_S);
             self.tried = Some(wanted);
-            self.draw(scene, view_px, divisor);
+            self.draw(&quick, view_px, divisor);
         } else if self.refine_at_s.is_some_and(|at_s| now_s >= at_s) {
             self.refine_at_s = None;
+            self.detail.drawn_fine(scene);
             self.draw(scene, view_px, 1);
         }
         if let Some(at_s) = self.refine_at_s {

@@ -5,7 +5,7 @@ use egui_wgpu::wgpu;
 use tyndall_render::FrameTarget;
 use tyndall_scene::{Preset, Scene, presets};
 
-use crate::stage::Stage;
+use crate::{detail::coarse, stage::Stage};
 
 /// Size of the pictures.
 const SIZE_PX: [u32; 2] = [192, 108];
@@ -67,7 +67,7 @@ impl Gallery {
     /// Draws one picture a frame, so that the window stays awake.
     fn draw_next(&mut self, ui: &Ui, stage: &mut Stage) {
         // The view comes first, and its timings must not be mixed up with those of thumbnails.
-        if stage.picture().is_none() || stage.awaits_timings() {
+        if !stage.is_done() {
             return;
         }
         let Some(entry) = self.entries.iter_mut().find(|entry| matches!(entry.picture, Picture::Due)) else { return };
@@ -85,7 +85,7 @@ fn draw(stage: &mut Stage, scene: &Scene) -> Option<(TextureId, FrameTarget)> {
     }
     let engine = stage.engine_mut()?;
     let drawn = engine.target(SIZE_PX).and_then(|mut target| {
-        engine.draw_aside(scene, &mut target)?;
+        engine.draw_aside(&coarse(scene), &mut target)?;
         Ok(target)
     });
     match drawn {

@@ -1,0 +1,80 @@
+//! The slow tables of light scattered more than once take seconds on a slow machine. They follow from the medium and the
+//! ground alone: while those change the app asks for the coarse tables, and for the scene's own once it rests. Whatever
+//! does not touch them, as the camera and the sun's place do not, keeps what is there.
+
+use tyndall_scene::{AtmosphereParams, GroundParams, Orders, OrdersDetail, Scene};
+
+/// What the slow tables follow from.
+#[derive(Clone, Debug, PartialEq)]
+struct Inputs {
+    atmosphere: AtmosphereParams,
+    ground: GroundParams,
+    brightness: f64,
+}
+
+/// Remembers which tables the renderer holds.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Detail {
+    fine_for: Option<Inputs>,
+}
+
+impl Detail {
+    /// The scene as it is to be drawn now: with coarse tables if the fine ones would have to be made first.
+    pub(crate) fn quick(&mut self, scene: &Scene) -> Scene {
+        let mut quick = scene.clone();
+        if scene.sky.orders == Orders::All && self.fine_for.as_ref() != Some(&inputs(scene)) {
+            quick.sky.orders_detail = OrdersDetail::Preview;
+            self.fine_for = None;
+        }
+        quick
+    }
+
+    /// The scene itself is drawn.
+    pub(crate) fn drawn_fine(&mut self, scene: &Scene) {
+        self.fine_for = Some(inputs(scene));
+    }
+
+    /// The renderer has drawn something else.
+    pub(crate) fn forget(&mut self) {
+        self.fine_for = None;
+    }
+}
+
+/// A scene for a small picture, which shows no fine tables.
+pub(crate) fn coarse(scene: &Scene) -> Scene {
+    let mut coarse = scene.clone();
+    coarse.sky.orders_detail = OrdersDetail::Preview;
+    coarse
+}
+
+fn inputs(scene: &Scene) -> Inputs {
+    let Scene { atmosphere, ground, sun, .. } = scene;
+    Inputs { atmosphere: atmosphere.clone(), ground: ground.clone(), brightness: sun.brightness }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_camera_moves_with_fine_tables_and_the_air_changes_with_coarse_ones() {
+        let mut detail = Detail::default();
+        let mut scene = Scene::default();
+        assert_eq!(detail.quick(&scene), coarse(&scene), "nothing is there yet");
+        detail.drawn_fine(&scene);
+        scene.camera.heading_deg = 90.0;
+        scene.sun.elevation_deg = 3.0;
+        assert_eq!(detail.quick(&scene), scene, "the tables are as before");
+        scene.atmosphere.ozone_du = 100.0;
+        assert_eq!(detail.quick(&scene), coarse(&scene), "new tables");
+        scene.atmosphere.ozone_du = 300.0;
+        assert_eq!(detail.quick(&scene), coarse(&scene), "the fine ones are gone");
+    }
+
+    #[test]
+    fn a_scene_without_higher_orders_is_drawn_as_it_is() {
+        let mut scene = Scene::default();
+        scene.sky.orders = Orders::Single;
+        assert_eq!(Detail::default().quick(&scene), scene, "there are no slow tables");
+    }
+}
