@@ -1,7 +1,10 @@
 //! The program under test: a small window on the software adapter.
 
+use std::path::PathBuf;
+
 use egui::{Modifiers, accesskit::Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
+use tempfile::TempDir;
 use tyndall_app::{App, AppOptions, wgpu_configuration};
 use tyndall_gpu::AdapterChoice;
 use tyndall_scene::{Orders, Scene, SceneFile};
@@ -26,8 +29,10 @@ pub(crate) fn start(options: AppOptions) -> Program {
     start_with(options, |_context| {})
 }
 
-/// The program as it starts; `look` sees what it is made from.
-pub(crate) fn start_with(options: AppOptions, look: impl FnOnce(&eframe::CreationContext<'_>)) -> Program {
+/// The program as it starts, with a scene that is drawn quickly unless another is named; `look` sees what it is made from.
+pub(crate) fn start_with(mut options: AppOptions, look: impl FnOnce(&eframe::CreationContext<'_>)) -> Program {
+    let (_folder, path) = scene_file(quick_scene());
+    options.scene.get_or_insert(path);
     let mut program = Harness::builder()
         .with_size(WINDOW_PT)
         .with_max_steps(MAX_STEPS)
@@ -43,10 +48,16 @@ pub(crate) fn start_with(options: AppOptions, look: impl FnOnce(&eframe::Creatio
 
 /// The program with a scene in it, opened from a file.
 pub(crate) fn start_with_scene(scene: Scene) -> Program {
+    let (_folder, path) = scene_file(scene);
+    start(AppOptions { scene: Some(path), ..AppOptions::default() })
+}
+
+/// A scene in a folder that is removed with the first value.
+fn scene_file(scene: Scene) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("scene.toml");
     SceneFile::new(scene).save(&path).expect("a scene that can be saved");
-    start(AppOptions { scene: Some(path), ..AppOptions::default() })
+    (folder, path)
 }
 
 /// A scene that is drawn quickly: light counts that was scattered once.
