@@ -220,8 +220,10 @@ impl Gpu {
 }
 
 fn enumerate() -> Vec<wgpu::Adapter> {
-    let desc = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-    pollster::block_on(wgpu::Instance::new(desc).enumerate_adapters(wgpu::Backends::all()))
+    let mut desc = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    // Another crate of the program may have compiled OpenGL into wgpu; the adapters and their order must not depend on it.
+    desc.backends &= wgpu::Backends::PRIMARY;
+    pollster::block_on(wgpu::Instance::new(desc).enumerate_adapters(wgpu::Backends::PRIMARY))
 }
 
 fn wanted_limits(available: &wgpu::Limits) -> wgpu::Limits {
