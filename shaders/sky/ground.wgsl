@@ -12,14 +12,19 @@ struct GroundFragment {
     @builtin(frag_depth) depth: f32,  // reversed
 }
 
-/// Irradiance of the sky [W/m^2/nm] for a sun of zenith cosine mu_sun.
+/// A spectrum between two columns of two rows of the irradiance table.
+fn ground_irradiance_rows(first: u32, fraction: f32, row: u32) -> Spectrum {
+    let lo = mix(textureLoad(irradiance_table, vec2<u32>(first, row), 0), textureLoad(irradiance_table, vec2<u32>(first + 1u, row), 0), fraction);
+    let hi = mix(textureLoad(irradiance_table, vec2<u32>(first, row + 1u), 0), textureLoad(irradiance_table, vec2<u32>(first + 1u, row + 1u), 0), fraction);
+    return Spectrum(lo, hi);
+}
+
+/// Irradiance of the sky (W/m^2/nm) for a sun of zenith cosine mu_sun: light scattered once, and more often.
 fn ground_sky_irradiance(mu_sun: f32) -> Spectrum {
     let position = irradiance_map(mu_sun) * f32(IRRADIANCE_TABLE_SIZE - 1u);
     let first = min(u32(position), IRRADIANCE_TABLE_SIZE - 2u);
     let fraction = position - f32(first);
-    let lo = mix(textureLoad(irradiance_table, vec2<u32>(first, 0u), 0), textureLoad(irradiance_table, vec2<u32>(first + 1u, 0u), 0), fraction);
-    let hi = mix(textureLoad(irradiance_table, vec2<u32>(first, 1u), 0), textureLoad(irradiance_table, vec2<u32>(first + 1u, 1u), 0), fraction);
-    return Spectrum(lo, hi);
+    return spectrum_add(ground_irradiance_rows(first, fraction, 0u), ground_irradiance_rows(first, fraction, 2u));
 }
 
 /// Irradiance of the sun [W/m^2/nm] on the ground; fades while the disc sinks below the horizon.

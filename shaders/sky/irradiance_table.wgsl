@@ -1,5 +1,6 @@
-// Fills the table of the sky's irradiance on horizontal ground at sea level [W/m^2/nm]. A workgroup per sun; its 64
-// threads march four directions each (16 zenith angles x 16 azimuths) and add up in shared memory in a fixed order.
+// Fills the upper two rows of the irradiance table: the light of the sky, scattered once, on horizontal ground at sea level
+// (W/m^2/nm). A workgroup per sun; its 64 threads march four directions each (16 zenith angles x 16 azimuths) and add up
+// in shared memory in a fixed order.
 // Twin: tyndall_scattering::irradiance_table.
 // @import sky/irradiance_map.wgsl
 // @import sky/march.wgsl

@@ -3,42 +3,12 @@
 // A ray is cut at its lowest point and where it enters and leaves the earth's shadow; each piece takes panels of four
 // Gauss nodes in a variable x with t = lowest + x |x| side, so that nodes are dense at the lowest point. The column from
 // the observer is the running integral of the same nodes, the column to the sun comes from the table.
-// @import common/sphere.wgsl
 // @import sky/column_lookup.wgsl
-// @import sky/quadrature.wgsl
-
-const MARCH_PANELS_MAX: u32 = 16u;
-
-/// A ray inside the atmosphere: altitude, cosines to zenith, of the sun to the zenith, and between ray and sun.
-struct Ray {
-    h: f32,
-    mu: f32,
-    mu_sun: f32,
-    nu: f32,
-}
-
-/// Light scattered towards the observer before the phase functions [W/m^2/nm].
-struct Scattered {
-    air: Spectrum,
-    aerosol: Spectrum,
-}
+// @import sky/march_path.wgsl
 
 struct MarchState {
     columns: vec3<f32>, // m, from the observer to the start of the panel
     light: Scattered,
-}
-
-/// Distance [m] at x, and its derivative [m].
-fn march_position(x: f32, lowest: f32, length: f32) -> vec2<f32> {
-    let side = select(length - lowest, lowest, x < 0.0);
-    return vec2<f32>(lowest + x * abs(x) * side, 2.0 * abs(x) * side);
-}
-
-/// x at a distance [m].
-fn march_variable(t: f32, lowest: f32, length: f32) -> f32 {
-    let from_lowest = t - lowest;
-    let side = max(select(length - lowest, lowest, from_lowest < 0.0), 1e-6);
-    return sign(from_lowest) * sqrt(min(abs(from_lowest) / side, 1.0));
 }
 
 /// Adds what one node scatters, for a path through `columns` to the sun.
@@ -53,37 +23,29 @@ fn march_node(light: Scattered, columns: vec3<f32>, densities: vec2<f32>) -> Sca
 fn march_panel(state: MarchState, ray: Ray, ends: vec2<f32>, x0: f32, width: f32, lit: bool) -> MarchState {
     let radius = atmosphere.planet_radius_m;
     var out = state;
-    var t: vec4<f32>;
-    var h: vec4<f32>;
-    var air: vec4<f32>;     // m, density times step
-    var aerosol: vec4<f32>; // m
-    var ozone: vec4<f32>;   // m
-    for (var i = 0u; i < 4u; i++) { // loops: 4
-        let position = march_position(x0 + QUADRATURE_NODES[i] * width, ends.x, ends.y);
-        t[i] = position.x;
-        h[i] = min(altitude_along(radius, ray.h, ray.mu, position.x), atmosphere.top_altitude_m);
-        let step = atmosphere_density(h[i]) * position.y * width;
-        air[i] = step.x;
-        aerosol[i] = step.y;
-        ozone[i] = step.z;
-    }
+    let nodes = march_nodes(ray, ends, x0, width);
     if (lit) {
-        let air_columns = quadrature_running(air);
-        let aerosol_columns = quadrature_running(aerosol);
-        let ozone_columns = quadrature_running(ozone);
+        let air_columns = quadrature_running(nodes.air);
+        let aerosol_columns = quadrature_running(nodes.aerosol);
+        let ozone_columns = quadrature_running(nodes.ozone);
         for (var i = 0u; i < 4u; i++) { // loops: 4
-            let mu_sun = mu_along(radius, ray.h, ray.mu_sun, ray.nu, t[i], h[i]);
+            let mu_sun = mu_along(radius, ray.h, ray.mu_sun, ray.nu, nodes.t[i], nodes.h[i]);
             let view = state.columns + vec3<f32>(air_columns[i], aerosol_columns[i], ozone_columns[i]);
-            let densities = vec2<f32>(air[i], aerosol[i]) * QUADRATURE_WEIGHTS[i];
-            out.light = march_node(out.light, view + columns_to_top(h[i], mu_sun), densities);
+            let densities = vec2<f32>(nodes.air[i], nodes.aerosol[i]) * QUADRATURE_WEIGHTS[i];
+            out.light = march_node(out.light, view + columns_to_top(nodes.h[i], mu_sun), densities);
         }
     }
-    out.columns += vec3<f32>(dot(air, QUADRATURE_WEIGHTS), dot(aerosol, QUADRATURE_WEIGHTS), dot(ozone, QUADRATURE_WEIGHTS));
+    out.columns += vec3<f32>(dot(nodes.air, QUADRATURE_WEIGHTS), dot(nodes.aerosol, QUADRATURE_WEIGHTS), dot(nodes.ozone, QUADRATURE_WEIGHTS));
     return out;
 }
 
 /// Light scattered once towards the observer over `length` metres of a ray; `panels` from 2 to MARCH_PANELS_MAX.
 fn march_scattered(ray: Ray, length: f32, panels: u32) -> Scattered {
+    return march_ray(ray, length, panels).light;
+}
+
+/// The same light, and the columns along the ray.
+fn march_ray(ray: Ray, length: f32, panels: u32) -> MarchState {
     let radius = atmosphere.planet_radius_m;
     let lowest = clamp(-(radius + ray.h) * ray.mu, 0.0, length);
     let shadow = shadow_interval(radius, ray.h, ray.mu, ray.mu_sun, ray.nu, length);
@@ -110,5 +72,5 @@ fn march_scattered(ray: Ray, length: f32, panels: u32) -> Scattered {
             state = march_panel(state, ray, vec2<f32>(lowest, length), low + f32(panel) * width, width, lit);
         }
     }
-    return state.light;
+    return state;
 }

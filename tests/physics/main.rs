@@ -2,6 +2,7 @@
 //! reference, and laws that a picture obeys.
 
 mod dome;
+mod gpu_orders;
 mod gpu_tables;
 mod laws;
 mod pictures;

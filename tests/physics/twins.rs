@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use tyndall_scattering::Atmosphere;
 use tyndall_scattering::march::Marcher;
+use tyndall_scattering::orders::{OrdersQuality, SourceTable};
 use tyndall_scattering::sky_view_table::SkyViewTable;
 use tyndall_scene::camera::CameraFrame;
 
@@ -14,14 +15,18 @@ fn a_pixel_of_the_sky_is_the_cpu_tables_radiance_in_its_direction() {
     let mut studio = Studio::new();
     let size = [48, 36];
     for preset in ["noon", "low-sun", "sunset", "high-altitude"] {
-        let scene = scene(preset, &[("sun.disc", "false")]);
+        let scene = scene(preset, &[("sun.disc", "false"), ("sky.orders_detail", "preview")]);
         let pixels = studio.radiance(&scene, size);
         let depth = studio.shoot(&scene, size).read_depth_m(studio.gpu).expect("depth");
         let atmosphere = Atmosphere::new(&scene.atmosphere, &scene.ground);
         let marcher = Marcher::new(atmosphere, scene.sky.march_steps as usize / 4).expect("eight wavelengths");
         let sun = scene.sun_direction().expect("a sun");
         let table_size = [scene.sky.table_azimuths as usize, scene.sky.table_elevations as usize];
-        let table = SkyViewTable::new(&marcher, scene.camera.altitude_m, sun.elevation_rad.sin(), table_size);
+        let (altitude_m, mu_sun) = (scene.camera.altitude_m, sun.elevation_rad.sin());
+        let source = SourceTable::new(&marcher, &OrdersQuality::preview());
+        let diffuse_size = studio.renderer.tables().sky_view_diffuse().size_px().map(|side| side as usize);
+        let table = SkyViewTable::new(&marcher, altitude_m, mu_sun, table_size);
+        let table = table.with_orders((&marcher, &source), (altitude_m, mu_sun), diffuse_size);
         let camera = CameraFrame::new(&scene.camera);
         let (mut worst, mut seen) = (0.0_f64, 0);
         for (i, pixel) in pixels.iter().enumerate().filter(|(i, _)| depth[*i] > 1e9) {

@@ -6,7 +6,7 @@ use naga::{AddressSpace, Handle, Type, TypeInner};
 use tyndall_gpu::layout::StructLayout;
 use tyndall_gpu::rust_layout;
 use tyndall_render::frame::gpu_data::Frame;
-use tyndall_render::sky::gpu_data::{Atmosphere, SkyView};
+use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyView};
 
 use crate::modules::{Module, assert_no_faults, faults_in, valid};
 
@@ -60,6 +60,7 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
                 padding1,
             }),
         ),
+        orders(),
         (
             "SkyView",
             rust_layout!(SkyView {
@@ -80,6 +81,31 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
             }),
         ),
     ]
+}
+
+/// Twin of `Orders`.
+fn orders() -> (&'static str, StructLayout) {
+    (
+        "Orders",
+        rust_layout!(Orders {
+            air_scattering,
+            aerosol_scattering,
+            moments,
+            zeniths,
+            altitudes,
+            suns_above,
+            suns_below,
+            zenith_count,
+            azimuths,
+            panels,
+            degree,
+            brightness,
+            lowest_mu_sun,
+            padding0,
+            padding1,
+            padding2,
+        }),
+    )
 }
 
 /// The structs in uniform and storage buffers of a module, those in arrays included.

@@ -4,17 +4,18 @@ use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, PassTiming};
 use tyndall_scattering::Atmosphere;
 use tyndall_scattering::dome::Dome;
-use tyndall_scene::Scene;
+use tyndall_scattering::orders::OrdersQuality;
+use tyndall_scene::{Orders, OrdersDetail, Scene};
 
 use crate::develop::DevelopRenderer;
 use crate::exposure::ev100_from_gain;
 use crate::frame::{frame_uniform, gpu_data};
 use crate::sky::gpu_data::{Atmosphere as AtmosphereUniform, SkyView};
-use crate::sky::{SkyRenderer, SkyTables};
+use crate::sky::{OrdersRequest, SkyRenderer, SkyTables};
 use crate::{FrameTarget, RenderError, RendererConfig};
 
-/// Passes that a frame can have: three tables, scene, meter, development.
-const TIMED_PASSES: u32 = 6;
+/// Passes that a frame can have: five tables, scene, meter, development.
+const TIMED_PASSES: u32 = 8;
 
 /// Draws scenes. All pipelines are made at once, so that a wrong shader shows at the start.
 #[derive(Debug)]
@@ -70,7 +71,8 @@ impl Renderer {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let model = Atmosphere::new(&scene.atmosphere, &scene.ground);
         let uniforms = (AtmosphereUniform::new(&model, scene.sun.brightness)?, SkyView::new(scene, &model)?);
-        self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms)?;
+        let orders = OrdersRequest { model: &model, quality: orders_quality(scene), brightness: scene.sun.brightness };
+        self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
         self.record_scene(gpu, &mut encoder, scene, target)?;
         let data = self.develop.prepare(gpu, &self.frame, target)?;
         self.develop.record(&mut encoder, &mut self.timer, &data, target);
@@ -143,5 +145,14 @@ impl Renderer {
     /// Forgets the tables, so that the next frame fills them again; for timing.
     pub fn invalidate_tables(&mut self) {
         self.tables.invalidate();
+    }
+}
+
+/// How finely the orders beyond the first are computed; `None` for the first alone.
+fn orders_quality(scene: &Scene) -> Option<OrdersQuality> {
+    match (scene.sky.orders, scene.sky.orders_detail) {
+        (Orders::Single, _) => None,
+        (Orders::All, OrdersDetail::Preview) => Some(OrdersQuality::preview()),
+        (Orders::All, OrdersDetail::Best) => Some(OrdersQuality::best()),
     }
 }

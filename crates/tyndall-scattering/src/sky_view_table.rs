@@ -4,7 +4,8 @@
 //! to the zenith, a quarter below and the rest above, quadratically dense at the horizon, which no interpolation crosses; columns
 //! run over the azimuth from the sun, 0 to pi, the other half being its mirror image. A texel holds linear Rec.709 of
 //! light scattered by air and by aerosol *before* their phase functions, which are multiplied per pixel, so that the
-//! aureole is sharp at any size of the table. The sun's disc and the ground are not in it.
+//! aureole is sharp at any size of the table. Light of higher orders has a table of its own, [`crate::sky_diffuse_table`].
+//! The sun's disc and the ground are not in it.
 //!
 //! Exact: [`crate::single_scattering`]; table: [`SkyViewTable::new`]; lookup: [`SkyViewTable::lookup`].
 //! WGSL: `shaders/sky/sky_view_*`.
@@ -19,6 +20,8 @@ use crate::Atmosphere;
 use crate::atmosphere::{AEROSOL, AIR};
 use crate::geometry::{Ray, distance_to_ground, distance_to_top};
 use crate::march::Marcher;
+use crate::orders::SourceTable;
+use crate::sky_diffuse_table::SkyDiffuseTable;
 
 /// Linear Rec.709 (cd/m^2 sr) by air and by aerosol, before the phase functions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +60,8 @@ pub struct SkyViewTable {
     above: Grid2<SkyTexel>,
     /// Below the horizon: azimuths x rows, row 0 at the horizon.
     below: Grid2<SkyTexel>,
+    /// Light of the higher orders, where it counts.
+    diffuse: Option<SkyDiffuseTable>,
 }
 
 impl SkyViewTable {
@@ -81,7 +86,24 @@ impl SkyViewTable {
                 (0..size[0] * rows).into_par_iter().map(|i| texel(i % size[0], i / size[0], part, above)).collect();
             Grid2::from_cells(part, cells).expect("one texel per cell")
         };
-        Self { horizon_elevation, above: fill(size[1] - rows_below, true), below: fill(rows_below, false) }
+        Self {
+            horizon_elevation,
+            above: fill(size[1] - rows_below, true),
+            below: fill(rows_below, false),
+            diffuse: None,
+        }
+    }
+
+    /// The same table with the light of all orders; `diffuse_size` = [azimuths, rows] of the part that changes slowly,
+    /// rows a multiple of 4.
+    #[must_use]
+    pub fn with_orders(
+        self,
+        (marcher, source): (&Marcher, &SourceTable),
+        (h_m, mu_sun): (f64, f64),
+        diffuse_size: [usize; 2],
+    ) -> Self {
+        Self { diffuse: Some(SkyDiffuseTable::new(marcher, source, (h_m, mu_sun), diffuse_size)), ..self }
     }
 
     /// The two parts in a direction: elevation above the horizontal and azimuth from the sun (rad).
@@ -102,7 +124,8 @@ impl SkyViewTable {
     pub fn radiance(&self, marcher: &Marcher, elevation: f64, azimuth: f64, nu: f64) -> [f64; 3] {
         let texel = self.lookup(elevation, azimuth);
         let [air, aerosol] = [AIR, AEROSOL].map(|medium| marcher.atmosphere.media[medium].phase.value(nu));
-        std::array::from_fn(|i| air * texel.air[i] + aerosol * texel.aerosol[i])
+        let diffuse = self.diffuse.as_ref().map_or([0.0; 3], |table| table.lookup(elevation, azimuth));
+        std::array::from_fn(|i| air * texel.air[i] + aerosol * texel.aerosol[i] + diffuse[i])
     }
 
     /// Texels below the horizon from the nadir up, then above it up to the zenith: the rows of the GPU's texture.
@@ -113,7 +136,7 @@ impl SkyViewTable {
 }
 
 /// Length of a ray. The row decides on which side of the horizon it ends; at the horizon itself rounding must not.
-fn row_length_m(atmosphere: &Atmosphere, ray: &Ray, above: bool) -> f64 {
+pub(crate) fn row_length_m(atmosphere: &Atmosphere, ray: &Ray, above: bool) -> f64 {
     let radius_m = atmosphere.planet_radius_m;
     if above {
         return distance_to_top(radius_m, atmosphere.top_altitude_m, ray.h_m, ray.mu);

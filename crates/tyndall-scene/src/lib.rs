@@ -27,7 +27,8 @@ pub use error::SceneError;
 pub use file::{FORMAT, MAX_BYTES, SceneFile};
 pub use hash::SceneHash;
 pub use params::{
-    CameraParams, ExposureMode, FilmParams, ImageParams, SkyMode, SkyParams, SunParams, SunPosition, ToneMap,
+    CameraParams, ExposureMode, FilmParams, ImageParams, Orders, OrdersDetail, SkyMode, SkyParams, SunParams,
+    SunPosition, ToneMap,
 };
 pub use place::Place;
 pub use preset::{Preset, presets};

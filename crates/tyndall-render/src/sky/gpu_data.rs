@@ -5,6 +5,11 @@ use tyndall_scattering::Atmosphere as Model;
 use tyndall_scattering::ScatteringError;
 use tyndall_scattering::atmosphere::{AEROSOL, AIR, OZONE};
 use tyndall_scattering::medium::Profile;
+use tyndall_scattering::orders::OrdersQuality;
+use tyndall_scattering::orders::basis::MAX_DEGREE;
+use tyndall_scattering::orders::directions::gauss_legendre;
+use tyndall_scattering::orders::media::ScatteringMedia;
+use tyndall_scattering::orders::nodes::Nodes;
 use tyndall_scattering::params::GroundPattern;
 use tyndall_scattering::phase::Phase;
 use tyndall_scattering::sky_view_table::{ROWS_PER_ROW_BELOW, horizon_elevation};
@@ -57,6 +62,67 @@ pub struct SkyView {
     pub padding: u32,
 }
 
+/// Twin of `Orders` in `shaders/sky/orders.wgsl`; units and meanings there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "documented at the WGSL twin")]
+pub struct Orders {
+    pub air_scattering: [f32; 8],
+    pub aerosol_scattering: [f32; 8],
+    pub moments: [[f32; 4]; MAX_DEGREE + 1],
+    pub zeniths: [[f32; 4]; ORDERS_ZENITHS_MAX],
+    pub altitudes: u32,
+    pub suns_above: u32,
+    pub suns_below: u32,
+    pub zenith_count: u32,
+    pub azimuths: u32,
+    pub panels: u32,
+    pub degree: u32,
+    pub brightness: f32,
+    pub lowest_mu_sun: f32,
+    pub padding0: u32,
+    pub padding1: u32,
+    pub padding2: u32,
+}
+
+/// Zenith angles of the quadrature on each side of the horizon that `Orders` in `shaders/sky/orders.wgsl` has room for.
+pub const ORDERS_ZENITHS_MAX: usize = 8;
+
+impl Orders {
+    /// From the model and the sizes of the table; its light counts `brightness` times. Sizes beyond what the shaders hold
+    /// are cut.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32 and u32")]
+    pub fn new(model: &Model, quality: &OrdersQuality, brightness: f64) -> Self {
+        let media = ScatteringMedia::new(model);
+        let nodes = Nodes::new(model.planet_radius_m, model.top_altitude_m, quality);
+        let [air, aerosol] = media.moments;
+        let zenith_count = quality.zeniths.min(ORDERS_ZENITHS_MAX);
+        let mut zeniths = [[0.0; 4]; ORDERS_ZENITHS_MAX];
+        for (node, (t, weight)) in zeniths.iter_mut().zip(gauss_legendre(zenith_count)) {
+            *node = [t as f32, weight as f32, 0.0, 0.0];
+        }
+        Self {
+            air_scattering: media.scattering_per_m[AIR],
+            aerosol_scattering: media.scattering_per_m[AEROSOL],
+            moments: std::array::from_fn(|l| [air[l], aerosol[l], 0.0, 0.0]),
+            zeniths,
+            altitudes: quality.altitudes as u32,
+            suns_above: quality.suns_above as u32,
+            suns_below: quality.suns_below as u32,
+            zenith_count: zenith_count as u32,
+            azimuths: quality.azimuths.min(ORDERS_ZENITHS_MAX) as u32,
+            panels: quality.panels as u32,
+            degree: quality.degree.min(MAX_DEGREE) as u32,
+            brightness: brightness as f32,
+            lowest_mu_sun: nodes.lowest_mu_sun() as f32,
+            padding0: 0,
+            padding1: 0,
+            padding2: 0,
+        }
+    }
+}
+
 #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
 fn narrow(spectrum: &Spectrum) -> [f32; 8] {
     spectrum.map(|value| value as f32)
@@ -105,6 +171,12 @@ impl Atmosphere {
     }
 }
 
+/// Columns and rows of the sky-view table for one of its diffuse part, and the least that this part may have.
+const COLUMNS_PER_DIFFUSE_COLUMN: u32 = 3;
+const ROWS_PER_DIFFUSE_ROW: u32 = 4;
+const DIFFUSE_AZIMUTHS_MIN: u32 = 16;
+const DIFFUSE_ROWS_BELOW_MIN: u32 = 8;
+
 /// Nodes of a panel of the march.
 const STEPS_PER_PANEL: u32 = 4;
 
@@ -134,6 +206,17 @@ impl SkyView {
             ground_tile_m: scene.ground.tile_m as f32,
             padding: 0,
         })
+    }
+
+    /// Texels of the diffuse part of the sky-view table, azimuths and rows. It changes slowly with direction.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "a small constant")]
+    pub fn diffuse_size(&self) -> [u32; 2] {
+        let rows_below = (self.rows_below / ROWS_PER_DIFFUSE_ROW).max(DIFFUSE_ROWS_BELOW_MIN);
+        [
+            (self.table_size[0] / COLUMNS_PER_DIFFUSE_COLUMN).max(DIFFUSE_AZIMUTHS_MIN),
+            rows_below * ROWS_PER_ROW_BELOW as u32,
+        ]
     }
 
     /// The part that decides what the sky-view table holds.

@@ -1,12 +1,14 @@
 //! Sky, sun's disc and ground. WGSL: `shaders/sky`.
 //!
-//! [`SkyTables`] keeps the column, irradiance and sky-view tables and rebuilds the ones whose inputs changed: a new
-//! medium rebuilds all, a new sun or altitude only the sky-view table. [`SkyRenderer`] draws the ground, then the sky per
+//! [`SkyTables`] keeps the column, irradiance, orders and sky-view tables and rebuilds the ones whose inputs changed: a
+//! new medium rebuilds all, a new sun or altitude only the sky-view table. [`SkyRenderer`] draws the ground, then the sky per
 //! pixel or, as in the paper, on a dome of coloured vertices.
 
 pub mod gpu_data;
+mod orders;
 mod passes;
 mod tables;
 
+pub use orders::{OrdersRequest, OrdersTable};
 pub use passes::{SkyDrawData, SkyRenderer};
 pub use tables::SkyTables;

@@ -80,6 +80,7 @@ impl SkyRenderer {
             ("sky_view", tables.view.as_entire_binding()),
             ("sky_view_air", view_of(&tables.sky_view_air)),
             ("sky_view_aerosol", view_of(&tables.sky_view_aerosol)),
+            ("sky_view_diffuse", view_of(&tables.sky_view_diffuse)),
         ];
         let sky = match mode {
             SkyMode::PerPixel => &self.per_pixel,

@@ -4,9 +4,14 @@ use tyndall_gpu::wgpu::{self, BufferUsages, TextureFormat, TextureUsages};
 use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, Shader, Texture, TextureDesc};
 use tyndall_scattering::column_table::COLUMN_TABLE_SIZE;
 use tyndall_scattering::irradiance_table::IRRADIANCE_TABLE_SIZE;
+use tyndall_scattering::orders::OrdersQuality;
 
 use super::gpu_data::{Atmosphere, SkyView};
+use super::orders::{OrdersRequest, OrdersTable};
 use crate::RenderError;
+
+/// What the column and irradiance tables follow from.
+type Inputs = (Atmosphere, Option<OrdersQuality>);
 
 /// Column, irradiance and sky-view tables, their uniforms and the pipelines that fill them.
 #[derive(Debug)]
@@ -14,13 +19,17 @@ pub struct SkyTables {
     fill_columns: ComputePipeline,
     fill_irradiance: ComputePipeline,
     fill_sky_view: ComputePipeline,
+    fill_sky_view_diffuse: ComputePipeline,
+    fill_irradiance_diffuse: ComputePipeline,
+    orders: OrdersTable,
     pub(super) atmosphere: Buffer,
     pub(super) view: Buffer,
     pub(super) columns: Texture,
     pub(super) irradiance: Texture,
     pub(super) sky_view_air: Texture,
     pub(super) sky_view_aerosol: Texture,
-    filled_for: Option<(Atmosphere, [u32; 8])>,
+    pub(super) sky_view_diffuse: Texture,
+    filled_for: Option<(Inputs, [u32; 8])>,
 }
 
 impl SkyTables {
@@ -37,12 +46,16 @@ impl SkyTables {
             fill_columns: pipeline("sky/column_table.wgsl", "column_table")?,
             fill_irradiance: pipeline("sky/irradiance_table.wgsl", "irradiance_table")?,
             fill_sky_view: pipeline("sky/sky_view_table.wgsl", "sky_view_table")?,
+            fill_sky_view_diffuse: pipeline("sky/sky_view_diffuse.wgsl", "sky_view_diffuse")?,
+            fill_irradiance_diffuse: pipeline("sky/irradiance_diffuse.wgsl", "irradiance_diffuse")?,
+            orders: OrdersTable::new(gpu)?,
             atmosphere: uniform("atmosphere", size_of::<Atmosphere>())?,
             view: uniform("sky view", size_of::<SkyView>())?,
             columns: table(gpu, "column table", columns)?,
-            irradiance: table(gpu, "irradiance table", [small(IRRADIANCE_TABLE_SIZE), 2])?,
+            irradiance: table(gpu, "irradiance table", [small(IRRADIANCE_TABLE_SIZE), IRRADIANCE_ROWS])?,
             sky_view_air: table(gpu, "sky-view table, air", [8, 8])?,
             sky_view_aerosol: table(gpu, "sky-view table, aerosol", [8, 8])?,
+            sky_view_diffuse: table(gpu, "sky-view table, diffuse", [8, 8])?,
             filled_for: None,
         })
     }
@@ -57,31 +70,47 @@ impl SkyTables {
         encoder: &mut wgpu::CommandEncoder,
         timer: &mut PassTimer,
         (atmosphere, view): (Atmosphere, SkyView),
+        orders: &OrdersRequest<'_>,
     ) -> Result<(), RenderError> {
         gpu.queue.write_buffer(&self.atmosphere, 0, bytemuck::bytes_of(&atmosphere));
         gpu.queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         let key = view.table_key();
-        let same_atmosphere = self.filled_for.is_some_and(|(filled, _)| filled == atmosphere);
-        if same_atmosphere && self.filled_for.is_some_and(|(_, filled)| filled == key) {
+        let inputs = (atmosphere, orders.quality);
+        let same_inputs = self.filled_for.is_some_and(|(filled, _)| filled == inputs);
+        if same_inputs && self.filled_for.is_some_and(|(_, filled)| filled == key) {
             return Ok(());
         }
         self.filled_for = None;
-        if !same_atmosphere {
-            self.record_columns(gpu, encoder, timer)?;
+        if !same_inputs {
+            // Submitted apart from the frame: the orders need the columns, in submissions of their own.
+            let mut first =
+                gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("columns") });
+            self.record_columns(gpu, &mut first, timer)?;
+            gpu.queue.submit([first.finish()]);
+            self.orders.update(gpu, &self.columns, orders)?;
             self.record_irradiance(gpu, encoder, timer)?;
         }
+        self.resize(gpu, &view)?;
+        self.record_sky_view(gpu, encoder, timer)?;
+        self.filled_for = Some((inputs, key));
+        Ok(())
+    }
+
+    fn resize(&mut self, gpu: &Gpu, view: &SkyView) -> Result<(), RenderError> {
         if self.sky_view_air.size_px() != view.table_size {
             self.sky_view_air = table(gpu, "sky-view table, air", view.table_size)?;
             self.sky_view_aerosol = table(gpu, "sky-view table, aerosol", view.table_size)?;
         }
-        self.record_sky_view(gpu, encoder, timer, view.table_size)?;
-        self.filled_for = Some((atmosphere, key));
+        if self.sky_view_diffuse.size_px() != view.diffuse_size() {
+            self.sky_view_diffuse = table(gpu, "sky-view table, diffuse", view.diffuse_size())?;
+        }
         Ok(())
     }
 
     /// Forgets what the tables hold, so that the next frame fills them again.
     pub fn invalidate(&mut self) {
         self.filled_for = None;
+        self.orders.invalidate();
     }
 
     fn record_columns(
@@ -118,6 +147,17 @@ impl SkyTables {
         let suns = small(IRRADIANCE_TABLE_SIZE);
         let threads = self.fill_irradiance.workgroup_size()[0];
         dispatch(encoder, timer, "irradiance table", &self.fill_irradiance, &bindings, [suns * threads, 1, 1]);
+        let bindings = self.fill_irradiance_diffuse.bind(
+            gpu,
+            0,
+            &[
+                ("orders", self.orders.uniform.as_entire_binding()),
+                ("orders_source", self.orders.table.as_entire_binding()),
+                ("irradiance_texels", view_of(&self.irradiance)),
+            ],
+        )?;
+        let name = "irradiance table, diffuse";
+        dispatch(encoder, timer, name, &self.fill_irradiance_diffuse, &bindings, [suns, 1, 1]);
         Ok(())
     }
 
@@ -126,7 +166,6 @@ impl SkyTables {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         timer: &mut PassTimer,
-        [width, height]: [u32; 2],
     ) -> Result<(), RenderError> {
         let bindings = self.fill_sky_view.bind(
             gpu,
@@ -139,7 +178,22 @@ impl SkyTables {
                 ("sky_view_aerosol_texels", view_of(&self.sky_view_aerosol)),
             ],
         )?;
+        let [width, height] = self.sky_view_air.size_px();
         dispatch(encoder, timer, "sky-view table", &self.fill_sky_view, &bindings, [width, height, 1]);
+        let bindings = self.fill_sky_view_diffuse.bind(
+            gpu,
+            0,
+            &[
+                ("atmosphere", self.atmosphere.as_entire_binding()),
+                ("sky_view", self.view.as_entire_binding()),
+                ("orders", self.orders.uniform.as_entire_binding()),
+                ("orders_source", self.orders.table.as_entire_binding()),
+                ("sky_view_diffuse_texels", view_of(&self.sky_view_diffuse)),
+            ],
+        )?;
+        let [width, height] = self.sky_view_diffuse.size_px();
+        let name = "sky-view table, diffuse";
+        dispatch(encoder, timer, name, &self.fill_sky_view_diffuse, &bindings, [width, height, 1]);
         Ok(())
     }
 
@@ -160,7 +214,22 @@ impl SkyTables {
     pub fn sky_view(&self) -> [&Texture; 2] {
         [&self.sky_view_air, &self.sky_view_aerosol]
     }
+
+    /// The diffuse part of the sky-view table, for tests.
+    #[must_use]
+    pub fn sky_view_diffuse(&self) -> &Texture {
+        &self.sky_view_diffuse
+    }
+
+    /// The table of diffuse light of all orders, for tests.
+    #[must_use]
+    pub fn orders(&self) -> &OrdersTable {
+        &self.orders
+    }
 }
+
+/// Rows of the irradiance table: two of light scattered once, two of light scattered more often.
+const IRRADIANCE_ROWS: u32 = 4;
 
 fn table(gpu: &Gpu, label: &str, size_px: [u32; 2]) -> Result<Texture, RenderError> {
     let usage = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;

@@ -38,7 +38,7 @@ pub(crate) struct OrderLoop<'a> {
 
 impl<'a> OrderLoop<'a> {
     pub(crate) fn new(marcher: &'a Marcher, quality: &'a OrdersQuality) -> Self {
-        let nodes = Nodes::new(marcher.atmosphere.top_altitude_m, quality);
+        let nodes = Nodes::new(marcher.atmosphere.planet_radius_m, marcher.atmosphere.top_altitude_m, quality);
         Self { marcher, media: ScatteringMedia::new(&marcher.atmosphere), quality, nodes }
     }
 

@@ -1,14 +1,18 @@
 //! Nodes of the source table: altitudes and suns, and the place of values between them. WGSL:
 //! `shaders/sky/orders_nodes.wgsl`.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::OrdersQuality;
+use crate::geometry::horizon_mu;
 
-/// Lowest sun of the table: zenith cosine, 20 degrees below the horizon.
-pub const LOWEST_MU_SUN: f64 = -0.342;
+/// Powers of e by which twilight falls from the horizon to the lowest sun of the table; on Earth a factor e in 1.1
+/// degrees. Between suns below the horizon a value is linear in exp([`TWILIGHT_FALL`] `mu_sun` / lowest), hence exact
+/// where the light falls at this rate and where it is constant.
+pub const TWILIGHT_FALL: f64 = 17.0;
 
-/// How fast twilight falls with the sun's zenith cosine: by e in 1.1 degrees. Between suns below the horizon a value is
-/// linear in exp([`TWILIGHT_RATE`] `mu_sun`), hence exact where the light falls at this rate and where it is constant.
-pub const TWILIGHT_RATE: f64 = 50.0;
+/// The lowest sun of any table.
+const LOWEST_MU_SUN_OF_ALL: f64 = -0.95;
 
 /// Linear part of the suns' spacing at the horizon, of an evenly spaced one.
 const HORIZON_SPACING: f64 = 0.3;
@@ -26,17 +30,28 @@ pub struct Place {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nodes {
     top_altitude_m: f64,
+    lowest_mu_sun: f64,
     altitudes: usize,
     suns_above: usize,
     suns_below: usize,
 }
 
 impl Nodes {
-    /// Nodes up to the top of the atmosphere.
+    /// Nodes up to the top of the atmosphere, and down to the sun at which the last sunlit air is out of sight: twice the
+    /// dip of the horizon at the top, on Earth 20 degrees.
     #[must_use]
-    pub fn new(top_altitude_m: f64, quality: &OrdersQuality) -> Self {
+    pub fn new(planet_radius_m: f64, top_altitude_m: f64, quality: &OrdersQuality) -> Self {
         let OrdersQuality { altitudes, suns_above, suns_below, .. } = *quality;
-        Self { top_altitude_m, altitudes, suns_above, suns_below }
+        let sine = -horizon_mu(planet_radius_m, top_altitude_m);
+        let lowest_mu_sun = -(2.0 * sine.asin()).min(FRAC_PI_2).sin();
+        let lowest_mu_sun = lowest_mu_sun.max(LOWEST_MU_SUN_OF_ALL);
+        Self { top_altitude_m, lowest_mu_sun, altitudes, suns_above, suns_below }
+    }
+
+    /// Zenith cosine of the lowest sun.
+    #[must_use]
+    pub fn lowest_mu_sun(&self) -> f64 {
+        self.lowest_mu_sun
     }
 
     /// Altitudes.
@@ -62,7 +77,7 @@ impl Nodes {
     #[must_use]
     pub fn mu_sun(&self, index: usize) -> f64 {
         if index < self.suns_below {
-            return LOWEST_MU_SUN * (1.0 - index as f64 / self.suns_below as f64);
+            return self.lowest_mu_sun * (1.0 - index as f64 / self.suns_below as f64);
         }
         let share = (index - self.suns_below) as f64 / (self.suns_above - 1) as f64;
         share * (HORIZON_SPACING + (1.0 - HORIZON_SPACING) * share)
@@ -79,9 +94,9 @@ impl Nodes {
     #[must_use]
     pub fn sun_place(&self, mu_sun: f64) -> Place {
         if mu_sun < 0.0 {
-            let depth = (mu_sun / LOWEST_MU_SUN).min(1.0);
+            let depth = (mu_sun / self.lowest_mu_sun).min(1.0);
             let Place { index, fraction } = place((1.0 - depth) * self.suns_below as f64, self.suns_below + 1);
-            let step = TWILIGHT_RATE * -LOWEST_MU_SUN / self.suns_below as f64;
+            let step = TWILIGHT_FALL / self.suns_below as f64;
             return Place { index, fraction: (fraction * step).exp_m1() / step.exp_m1() };
         }
         // The root of share (a + (1 - a) share) = mu, in the form that does not cancel.
@@ -105,7 +120,7 @@ mod tests {
     use super::*;
 
     fn nodes() -> Nodes {
-        Nodes::new(80e3, &OrdersQuality::preview())
+        Nodes::new(6.36e6, 80e3, &OrdersQuality::preview())
     }
 
     #[test]
@@ -140,9 +155,15 @@ mod tests {
     }
 
     #[test]
+    fn the_table_of_the_earth_ends_twenty_degrees_below_the_horizon() {
+        let nodes = Nodes::new(6.36e6, 100e3, &OrdersQuality::preview());
+        assert!((nodes.lowest_mu_sun().asin().to_degrees() + 20.2).abs() < 0.1, "{}", nodes.lowest_mu_sun());
+    }
+
+    #[test]
     fn a_twilight_that_falls_at_the_assumed_rate_is_interpolated_exactly() {
         let nodes = nodes();
-        let light = |mu: f64| (TWILIGHT_RATE * mu).exp() + 0.1;
+        let light = |mu: f64| (-TWILIGHT_FALL * mu / nodes.lowest_mu_sun()).exp() + 0.1;
         for mu in [-0.3, -0.123, -0.05, -0.0031] {
             let Place { index, fraction } = nodes.sun_place(mu);
             let got = light(nodes.mu_sun(index)) * (1.0 - fraction) + light(nodes.mu_sun(index + 1)) * fraction;

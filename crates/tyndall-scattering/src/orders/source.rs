@@ -6,8 +6,9 @@ use tyndall_core::spectrum::{Spectrum, WAVELENGTH_COUNT};
 
 use super::OrdersQuality;
 use super::build::OrderLoop;
-use super::field::{Field, Light};
+use super::field::{Field, Light, mix};
 use super::media::ScatteringMedia;
+use super::nodes::Place;
 use super::path::{Path, widen};
 use crate::geometry::{Ray, mu_along};
 use crate::march::Marcher;
@@ -18,7 +19,7 @@ use crate::single_scattering::{RayEnd, ray_end};
 pub struct SourceTable {
     media: ScatteringMedia,
     all: Field,
-    first_irradiance: Vec<Light>,
+    beyond_first: Vec<Light>,
 }
 
 impl SourceTable {
@@ -27,13 +28,10 @@ impl SourceTable {
     pub fn new(marcher: &Marcher, quality: &OrdersQuality) -> Self {
         let orders = OrderLoop::new(marcher, quality);
         let first = orders.first();
-        Self::from_fields(marcher, orders.sum(&first), first.irradiance)
-    }
-
-    /// A table from light that something else has computed: that of all orders, and the irradiance by the first alone.
-    #[must_use]
-    pub fn from_fields(marcher: &Marcher, all: Field, first_irradiance: Vec<Light>) -> Self {
-        Self { media: ScatteringMedia::new(&marcher.atmosphere), all, first_irradiance }
+        let all = orders.sum(&first);
+        let pairs = all.irradiance.iter().zip(&first.irradiance);
+        let beyond_first = pairs.map(|(all, first)| std::array::from_fn(|k| all[k] - first[k])).collect();
+        Self { media: orders.media, all, beyond_first }
     }
 
     /// The stored light of all orders.
@@ -52,11 +50,13 @@ impl SourceTable {
     /// [`crate::irradiance_table`].
     #[must_use]
     pub fn irradiance_beyond_first(&self, mu_sun: f64) -> Spectrum {
-        let place = self.all.nodes.sun_place(mu_sun);
-        let beyond = |sun: usize, k: usize| f64::from(self.all.irradiance[sun][k] - self.first_irradiance[sun][k]);
-        std::array::from_fn(|k| {
-            beyond(place.index, k) * (1.0 - place.fraction) + beyond(place.index + 1, k) * place.fraction
-        })
+        let Place { index, fraction } = self.all.nodes.sun_place(mu_sun);
+        widen(&mix(&self.beyond_first[index], &self.beyond_first[index + 1], fraction))
+    }
+
+    /// [`SourceTable::irradiance_beyond_first`] at the suns of the table.
+    pub fn irradiance_beyond_first_nodes(&self) -> impl Iterator<Item = Light> {
+        self.beyond_first.iter().copied()
     }
 }
 

@@ -7,7 +7,6 @@ use tyndall_core::spectrum::WAVELENGTH_COUNT;
 use super::basis::{harmonic_index, zenith_parts};
 use super::build::OrderLoop;
 use super::directions::zeniths;
-use super::nodes::LOWEST_MU_SUN;
 use super::path::{Path, azimuth_between};
 use super::{OrdersQuality, SourceTable, diffuse_radiance};
 use crate::Atmosphere;
@@ -120,7 +119,7 @@ fn a_white_furnace_gives_back_all_light() {
             let at = |sun: usize| f64::from(total.at(sun, top)[harmonic_index(1, 0)][k]) / upward_unit;
             at(place.index) * (1.0 - place.fraction) + at(place.index + 1) * place.fraction
         };
-        let lowest = LOWEST_MU_SUN;
+        let lowest = total.nodes.lowest_mu_sun();
         // The planet's surface element is 2 pi R^2 d(mu_sun), the sun's cross-section pi R^2.
         let leaving = -2.0 * (integrate(lowest, 0.0, 40, upward) + integrate(0.0, 1.0, 40, upward));
         // Sunlight that only grazes the air passes through: b db over impact parameters from ground to top.

@@ -9,5 +9,5 @@ mod sun;
 pub use camera::CameraParams;
 pub use film::{ExposureMode, FilmParams, ToneMap};
 pub use image::ImageParams;
-pub use sky::{SkyMode, SkyParams};
+pub use sky::{Orders, OrdersDetail, SkyMode, SkyParams};
 pub use sun::{SunParams, SunPosition};

@@ -12,11 +12,35 @@ choices! {
     }
 }
 
+choices! {
+    /// How often the light of the sky was scattered.
+    pub enum Orders {
+        /// Once, as in equation (1) of the paper: dark horizons, black earth shadow.
+        Single = "single",
+        /// Any number of times, by the air, the aerosol and the ground.
+        All = "all",
+    }
+}
+
+choices! {
+    /// How finely light that was scattered more than once is computed.
+    pub enum OrdersDetail {
+        /// One per cent by day, in an eighth of the time.
+        Preview = "preview",
+        /// Half a per cent by day.
+        Best = "best",
+    }
+}
+
 params! {
     /// The sky's method and its resolution. The defaults suit every scene; see each line for when to change it.
     pub struct SkyParams {
         /// Where the colour is evaluated: at every pixel, or as in the paper at the vertices of a dome.
         mode: SkyMode = SkyMode::PerPixel, "paper section 2; Hillaire 2020";
+        /// Whether light counts that was scattered once, as in the paper, or any number of times, as in nature.
+        orders: Orders = Orders::All, "paper eq. (1); Nishita et al. 1996";
+        /// How finely light that was scattered more than once is computed. Used with all orders.
+        orders_detail: OrdersDetail = OrdersDetail::Best, "spherical harmonics of degree 4";
         /// Rows of the sky table, over the elevation of view. Raise it when a low sun shows rings at the horizon.
         table_elevations: u32 = 320, ["1", 32..=1024, Log], "Hillaire 2020";
         /// Columns of the sky table, over the angle from the sun's azimuth. Raise it for very hazy air.

@@ -1,0 +1,90 @@
+// What a ray gathers from the table of diffuse light in one march. Twin: tyndall_scattering::orders::path.
+// @import sky/march_path.wgsl
+// @import sky/orders_altitudes.wgsl
+// @import sky/orders_basis.wgsl
+// @import sky/orders_source.wgsl
+
+/// Light that a ray has gathered (W/m^2/sr/nm), and the columns (m) of air, aerosol and ozone along it.
+struct OrdersGathered {
+    light: Spectrum,
+    columns: vec3<f32>,
+}
+
+/// One harmonic between four nodes whose first vectors and weights are given.
+fn orders_mix(nodes: vec4<u32>, weights: vec4<f32>, offset: u32) -> Spectrum {
+    let low = spectrum_add(spectrum_scale(orders_load(nodes.x + offset), weights.x), spectrum_scale(orders_load(nodes.y + offset), weights.y));
+    let high = spectrum_add(spectrum_scale(orders_load(nodes.z + offset), weights.z), spectrum_scale(orders_load(nodes.w + offset), weights.w));
+    return spectrum_add(low, high);
+}
+
+/// Mean light around a point of altitude h, weighted by the phase functions of air and aerosol towards a ray with zenith
+/// cosine mu and cosine nu to the sun (W/m^2/sr/nm).
+fn orders_scattered(h: f32, mu: f32, mu_sun: f32, nu: f32) -> Scattered {
+    let altitude = orders_altitude_place(h);
+    let sun = orders_sun_place(mu_sun);
+    let stride = 2u * orders_harmonics();
+    let first = (sun.index * orders.altitudes + altitude.index) * stride;
+    let nodes = first + vec4<u32>(0u, stride, stride * orders.altitudes, stride * (orders.altitudes + 1u));
+    let u = vec2<f32>(1.0 - altitude.fraction, altitude.fraction);
+    let weights = vec4<f32>(u * (1.0 - sun.fraction), u * sun.fraction);
+    let sine = sqrt(max((1.0 - mu) * (1.0 + mu), 0.0));
+    // With ray or sun in the zenith any azimuth will do: the harmonics with m > 0 vanish there.
+    let sines = max(sine * sqrt(max((1.0 - mu_sun) * (1.0 + mu_sun), 0.0)), 1e-6);
+    let cos_phi = clamp((nu - mu * mu_sun) / sines, -1.0, 1.0);
+    let zero = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
+    var out = Scattered(zero, zero);
+    var azimuth = vec2<f32>(cos_phi, 1.0);
+    var diagonal = 1.0;
+    for (var m = 0u; m <= orders.degree; m++) { // loops: ORDERS_DEGREES
+        var legendre = vec2<f32>(0.0, diagonal);
+        for (var l = m; l <= orders.degree; l++) { // loops: ORDERS_DEGREES
+            let k = l * (l + 1u) / 2u + m;
+            let light = orders_mix(nodes, weights * (ORDERS_NORMS[k] * legendre.y * azimuth.y), 2u * k);
+            out.air = spectrum_add(out.air, spectrum_scale(light, orders.moments[l].x));
+            out.aerosol = spectrum_add(out.aerosol, spectrum_scale(light, orders.moments[l].y));
+            legendre = vec2<f32>(legendre.y, orders_legendre_next(l, m, mu, legendre.x, legendre.y));
+        }
+        azimuth = vec2<f32>(azimuth.y, 2.0 * cos_phi * azimuth.y - azimuth.x);
+        diagonal *= f32(2u * m + 1u) * sine;
+    }
+    return out;
+}
+
+/// One panel from x0 of a width in x; `ends` = lowest point and length (m).
+fn orders_panel(state: OrdersGathered, ray: Ray, ends: vec2<f32>, x0: f32, width: f32) -> OrdersGathered {
+    let radius = atmosphere.planet_radius_m;
+    var out = state;
+    let nodes = march_nodes(ray, ends, x0, width);
+    let air_columns = quadrature_running(nodes.air);
+    let aerosol_columns = quadrature_running(nodes.aerosol);
+    let ozone_columns = quadrature_running(nodes.ozone);
+    for (var i = 0u; i < 4u; i++) { // loops: 4
+        let mu = mu_along(radius, ray.h, ray.mu, 1.0, nodes.t[i], nodes.h[i]);
+        let mu_sun = mu_along(radius, ray.h, ray.mu_sun, ray.nu, nodes.t[i], nodes.h[i]);
+        let scattered = orders_scattered(nodes.h[i], mu, mu_sun, ray.nu);
+        let air = spectrum_scale(spectrum_mul(scattered.air, orders.air_scattering), nodes.air[i]);
+        let aerosol = spectrum_scale(spectrum_mul(scattered.aerosol, orders.aerosol_scattering), nodes.aerosol[i]);
+        let view = state.columns + vec3<f32>(air_columns[i], aerosol_columns[i], ozone_columns[i]);
+        let light = spectrum_mul(spectrum_add(air, aerosol), atmosphere_transmittance(view));
+        out.light = spectrum_add(out.light, spectrum_scale(light, QUADRATURE_WEIGHTS[i]));
+    }
+    out.columns += vec3<f32>(dot(nodes.air, QUADRATURE_WEIGHTS), dot(nodes.aerosol, QUADRATURE_WEIGHTS), dot(nodes.ozone, QUADRATURE_WEIGHTS));
+    return out;
+}
+
+/// What is scattered into `length` metres of a ray; `panels` from 2 to MARCH_PANELS_MAX.
+fn orders_gather(ray: Ray, length: f32, panels: u32) -> OrdersGathered {
+    let lowest = clamp(-(atmosphere.planet_radius_m + ray.h) * ray.mu, 0.0, length);
+    let roots = sqrt(vec2<f32>(lowest, length - lowest));
+    var state = OrdersGathered(Spectrum(vec4<f32>(0.0), vec4<f32>(0.0)), vec3<f32>(0.0));
+    for (var side = 0u; side < 2u; side++) { // loops: 2
+        if (roots[side] <= 0.0) { continue; }
+        let count = clamp(u32(ceil(f32(panels) * roots[side] / (roots.x + roots.y))), 1u, MARCH_PANELS_MAX);
+        for (var panel = 0u; panel < count; panel++) { // loops: MARCH_PANELS_MAX
+            let width = 1.0 / f32(count);
+            let x0 = f32(panel) * width - select(0.0, 1.0, side == 0u);
+            state = orders_panel(state, ray, vec2<f32>(lowest, length), x0, width);
+        }
+    }
+    return state;
+}

@@ -1,0 +1,33 @@
+// Order n + 1 of the table from order n: what order n scatters into each ray, and its irradiance from the ground. A
+// workgroup per altitude (x) and sun (y). Twin: tyndall_scattering::orders::build.
+// @import sky/orders_gather.wgsl
+// @import sky/orders_project.wgsl
+
+/// Radiance in a direction (W/m^2/sr/nm).
+fn orders_next_radiance(h: f32, mu_sun: f32, direction: OrdersDirection) -> Spectrum {
+    let ray = orders_ray(h, mu_sun, direction);
+    let length = orders_length(ray, direction.above);
+    let gathered = orders_gather(ray, length, orders.panels);
+    if (direction.above) {
+        return gathered.light;
+    }
+    let mu_ground = mu_along(atmosphere.planet_radius_m, h, mu_sun, ray.nu, length, 0.0);
+    return spectrum_add(gathered.light, orders_reflected(orders_irradiance(mu_ground), gathered.columns));
+}
+
+@compute @workgroup_size(64, 1, 1)
+fn orders_next(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) thread: u32) {
+    if (any(vec2<u32>(group.x, group.y + orders_first_sun.x) >= vec2<u32>(orders.altitudes, orders.suns_above + orders.suns_below))) { return; }
+    let sun = group.y + orders_first_sun.x;
+    let h = orders_altitude(group.x);
+    for (var i = 0u; i < ORDERS_DIRECTIONS_PER_THREAD; i++) { // loops: ORDERS_DIRECTIONS_PER_THREAD
+        let index = thread + i * ORDERS_THREADS;
+        if (index < orders_directions()) {
+            let light = orders_next_radiance(h, orders_mu_sun(sun), orders_direction(h, index));
+            orders_lo[index] = light.lo;
+            orders_hi[index] = light.hi;
+        }
+    }
+    workgroupBarrier();
+    orders_project(thread, group.x, sun);
+}
