@@ -4,8 +4,8 @@ use std::{process::ExitCode, sync::Arc};
 
 use eframe::{NativeOptions, Renderer};
 use egui::{ViewportBuilder, vec2};
-use egui_wgpu::{NativeAdapterSelectorMethod, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, wgpu};
-use tyndall_gpu::{AdapterChoice, Gpu, GpuError, GpuOptions};
+use egui_wgpu::{NativeAdapterSelectorMethod, WgpuConfiguration, WgpuError, WgpuSetup, WgpuSetupCreateNew, wgpu};
+use tyndall_gpu::{AdapterChoice, Gpu, GpuOptions};
 
 use crate::{App, AppOptions};
 
@@ -39,7 +39,13 @@ pub fn run(mut options: AppOptions) -> ExitCode {
 /// A device with the limits and the timestamps that the renderer wants, on the adapter chosen.
 #[must_use]
 pub fn wgpu_configuration(choice: &AdapterChoice) -> WgpuConfiguration {
+    let base = WgpuSetupCreateNew::without_display_handle();
     let setup = WgpuSetupCreateNew {
+        // OpenGL is compiled in by egui, but the renderer is not made for it.
+        instance_descriptor: wgpu::InstanceDescriptor {
+            backends: base.instance_descriptor.backends & wgpu::Backends::PRIMARY,
+            ..base.instance_descriptor
+        },
         native_adapter_selector: selector(choice.clone()),
         device_descriptor: Arc::new(|adapter| wgpu::DeviceDescriptor {
             label: Some("tyndall"),
@@ -47,7 +53,8 @@ pub fn wgpu_configuration(choice: &AdapterChoice) -> WgpuConfiguration {
             required_limits: Gpu::wanted_limits(adapter),
             ..Default::default()
         }),
-        ..WgpuSetupCreateNew::without_display_handle()
+        display_handle: base.display_handle,
+        power_preference: base.power_preference,
     };
     WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..WgpuConfiguration::default() }
 }
@@ -68,21 +75,34 @@ fn selector(choice: AdapterChoice) -> Option<NativeAdapterSelectorMethod> {
                 usable.iter().find(|a| a.get_info().name.to_lowercase().contains(&part.to_lowercase()))
             }
         };
+        if usable.is_empty() {
+            return Err(no_adapter());
+        }
         let names: Vec<_> = usable.iter().map(|adapter| adapter.get_info().name).collect();
         let missing = || format!("no adapter fits `{choice}`; there are: {}", names.join(", "));
         found.map(|adapter| (*adapter).clone()).ok_or_else(missing)
     }))
 }
 
+/// What to install, or that what there is shows no window.
+fn no_adapter() -> String {
+    match Gpu::open(&GpuOptions::default()) {
+        Err(reason) => reason.to_string(),
+        Ok(_) => "no graphics adapter can show a window".to_owned(),
+    }
+}
+
 /// One sentence on stderr, and the exit code.
 #[expect(clippy::print_stderr, reason = "there is no window to say it in")]
 fn explain(error: &eframe::Error) -> ExitCode {
     let (sentence, code) = match error {
-        eframe::Error::Wgpu(_) => match Gpu::open(&GpuOptions::default()) {
-            Err(reason @ GpuError::NoAdapter { .. }) => (reason.to_string(), ExitCode::from(EXIT_NO_ADAPTER)),
-            Err(reason) => (format!("{error}: {reason}"), ExitCode::from(EXIT_NO_ADAPTER)),
-            Ok(_) => (format!("no adapter can show a window: {error}"), ExitCode::from(EXIT_NO_ADAPTER)),
-        },
+        eframe::Error::Wgpu(WgpuError::CustomNativeAdapterSelectionError(reason)) => {
+            (reason.clone(), ExitCode::from(EXIT_NO_ADAPTER))
+        }
+        eframe::Error::Wgpu(reason) => {
+            tracing::debug!(%reason, "no window");
+            (no_adapter(), ExitCode::from(EXIT_NO_ADAPTER))
+        }
         eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => {
             (format!("no window can be opened: {error}; `tyndall render` needs none"), ExitCode::FAILURE)
         }

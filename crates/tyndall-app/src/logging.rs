@@ -20,8 +20,10 @@ use tracing_subscriber::{
 /// Entries that are kept; older ones are forgotten.
 const CAPACITY: usize = 2000;
 
-/// What is logged unless `RUST_LOG` says otherwise: everything of Tyndall from info on, warnings of the rest.
-const FILTER: &str = "warn,tyndall_app=info,tyndall_gpu=info,tyndall_io=info,tyndall_render=info,tyndall_scene=info";
+/// What is logged unless `RUST_LOG` says otherwise: everything of Tyndall from info on, warnings of the rest. A missing
+/// driver is told in one sentence at the end, not in the loader's twenty lines.
+const FILTER: &str = "warn,wgpu_hal::vulkan::instance=off,tyndall_app=info,tyndall_gpu=info,tyndall_io=info,\
+                      tyndall_render=info,tyndall_scene=info";
 
 /// One line of the log.
 #[derive(Clone, Debug, PartialEq)]
