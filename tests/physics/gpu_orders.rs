@@ -157,7 +157,12 @@ fn a_new_sun_keeps_the_orders_and_a_new_ground_does_not() {
     scene.sun.brightness = 2.0;
     assert_eq!(irradiance(&scene), before, "the table covers every sun, and holds the light of ours");
     scene.ground.red = 1.0;
-    assert!(irradiance(&scene) != before, "a red ground reddens the sky");
+    let red = irradiance(&scene);
+    assert!(red != before, "a red ground reddens the sky");
+    scene.atmosphere.air_scale_height_km = 6.0;
+    let thin = irradiance(&scene);
+    scene.atmosphere.air_scale_height_km = 8.0;
+    assert!(thin != red && irradiance(&scene) == red, "columns are those of the scene's profiles");
 }
 
 #[test]

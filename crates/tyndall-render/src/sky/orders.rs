@@ -6,7 +6,10 @@
 use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, ComputePipeline, Gpu, Shader, Texture};
 use tyndall_scattering::Atmosphere as Model;
+use tyndall_scattering::atmosphere::MEDIUM_COUNT;
+use tyndall_scattering::column_table::ColumnTable;
 use tyndall_scattering::march::Marcher;
+use tyndall_scattering::medium::Profile;
 use tyndall_scattering::orders::basis::harmonic_count;
 use tyndall_scattering::orders::{OrdersQuality, SourceTable};
 
@@ -46,7 +49,12 @@ pub struct OrdersTable {
     pub(super) uniform: Buffer,
     pub(super) table: Buffer,
     holds: Option<(Atmosphere, OrdersQuality)>,
+    /// The columns of the last atmosphere on the CPU.
+    columns: Option<(Shape, ColumnTable)>,
 }
+
+/// Radius (m), altitude of the top (m) and density profiles: what columns follow from.
+type Shape = (f64, f64, [Profile; MEDIUM_COUNT]);
 
 impl OrdersTable {
     /// Pipelines and an empty table.
@@ -68,6 +76,7 @@ impl OrdersTable {
             uniform: uniform("orders", size_of::<Orders>())?,
             table: table(gpu, SPECTRUM_BYTES)?,
             holds: None,
+            columns: None,
         })
     }
 
@@ -114,13 +123,23 @@ impl OrdersTable {
     /// # Errors
     /// When memory does not suffice or the atmosphere does not have eight wavelengths.
     pub fn fill_on_cpu(&mut self, gpu: &Gpu, model: &Model, quality: &OrdersQuality) -> Result<(), RenderError> {
-        let marcher = Marcher::new(model.clone(), CPU_PANELS)?;
+        let marcher = self.marcher(model)?;
         let source = SourceTable::new(&marcher, quality);
         let values: Vec<[f32; 8]> =
             source.field().harmonics.iter().copied().chain(source.irradiance_beyond_first_nodes()).collect();
         self.table = table(gpu, values.len() * SPECTRUM_BYTES)?;
         gpu.queue.write_buffer(&self.table, 0, bytemuck::cast_slice(&values));
         Ok(())
+    }
+
+    /// The march of an atmosphere. Its columns do not depend on how much of each medium there is: they are kept while the
+    /// profiles stay the same.
+    fn marcher(&mut self, model: &Model) -> Result<Marcher, RenderError> {
+        let shape = (model.planet_radius_m, model.top_altitude_m, model.media.each_ref().map(|medium| medium.profile));
+        let kept = self.columns.take().filter(|(of, _)| *of == shape);
+        let (_, columns) = self.columns.insert(kept.unwrap_or_else(|| (shape, ColumnTable::new(model))));
+        let (atmosphere, coefficients) = (model.clone(), model.coefficients()?);
+        Ok(Marcher { atmosphere, coefficients, columns: columns.clone(), panels: CPU_PANELS })
     }
 
     /// Fills the table with the shaders, in submissions of its own. [`OrdersTable::upload`] comes first.
