@@ -31,15 +31,18 @@ fn marcher(scene: &Scene) -> Marcher {
 fn scenes() -> [Scene; 4] {
     let small = ("sky.table_azimuths", "24");
     let few = ("sky.table_elevations", "64");
+    // These are the tables of light that was scattered once.
+    let single = ("sky.orders", "single");
     [
-        scene("noon", &[small, few]),
-        scene("sunset", &[small, few, ("atmosphere.aerosol_optical_depth", "0.5")]),
-        scene("twilight", &[small, few, ("camera.altitude_m", "12000")]),
+        scene("noon", &[small, few, single]),
+        scene("sunset", &[small, few, single, ("atmosphere.aerosol_optical_depth", "0.5")]),
+        scene("twilight", &[small, few, single, ("camera.altitude_m", "12000")]),
         scene(
             "noon",
             &[
                 small,
                 few,
+                single,
                 ("atmosphere.planet_radius_km", "1000"),
                 ("atmosphere.top_altitude_km", "200"),
                 ("atmosphere.air_scale_height_km", "20"),

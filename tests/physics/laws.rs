@@ -111,7 +111,9 @@ fn the_zenith_darkens_steadily_while_the_sun_sets() {
     let mut before = f64::MAX;
     for step in 0..=60 {
         let elevation = (3.0 - 0.15 * f64::from(step)).to_string();
-        let changes = [("camera.pitch_deg", "90"), ("sun.elevation_deg", elevation.as_str())];
+        let look = [("camera.pitch_deg", "90"), ("sun.elevation_deg", elevation.as_str())];
+        // A small table for each of the suns: the zenith is its last row.
+        let changes = [look, [("sky.table_elevations", "32"), ("sky.table_azimuths", "16")]].concat();
         let zenith = luminance(studio.radiance(&scene("twilight", &changes), [2, 2])[0]);
         assert!(zenith < before && zenith > 0.0, "sun at {elevation}: {before} then {zenith}");
         assert!(before > 1e300 || zenith > 0.7 * before, "sun at {elevation}: {before} then {zenith}");
