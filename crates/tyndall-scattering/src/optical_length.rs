@@ -6,7 +6,7 @@
 
 use crate::atmosphere::{Atmosphere, MEDIUM_COUNT};
 use crate::geometry::{altitude_along, distance_to_top};
-use crate::quadrature::integrate;
+use crate::quadrature::integrate_many;
 
 /// Columns (m) of air, aerosol and ozone.
 pub type Columns = [f64; MEDIUM_COUNT];
@@ -22,13 +22,16 @@ const PANELS: usize = 48;
 pub fn columns_along(atmosphere: &Atmosphere, h_m: f64, mu: f64, length_m: f64) -> Columns {
     let radius_m = atmosphere.planet_radius_m;
     let lowest_m = (-(radius_m + h_m) * mu).clamp(0.0, length_m);
-    let side = |medium: usize, from_m: f64, span_m: f64| {
-        integrate(0.0, 1.0, PANELS, |x| {
-            let altitude_m = altitude_along(radius_m, h_m, mu, from_m + span_m * x * x).max(0.0);
-            atmosphere.media[medium].profile.density(altitude_m) * 2.0 * x * span_m.abs()
-        })
-    };
-    std::array::from_fn(|medium| side(medium, lowest_m, -lowest_m) + side(medium, lowest_m, length_m - lowest_m))
+    let mut columns = [0.0; MEDIUM_COUNT];
+    for span_m in [-lowest_m, length_m - lowest_m].into_iter().filter(|span_m| *span_m != 0.0) {
+        let side = integrate_many(0.0, 1.0, PANELS, |x| {
+            let altitude_m = altitude_along(radius_m, h_m, mu, lowest_m + span_m * x * x).max(0.0);
+            let step_m = 2.0 * x * span_m.abs();
+            atmosphere.media.each_ref().map(|medium| medium.profile.density(altitude_m) * step_m)
+        });
+        columns = std::array::from_fn(|medium| columns[medium] + side[medium]);
+    }
+    columns
 }
 
 /// Columns (m) from altitude `h_m` in the direction of zenith cosine `mu` to the top of the atmosphere. The planet does

@@ -19,14 +19,23 @@ pub const RUNNING: [[f64; 4]; 4] = [
 
 /// The integral of `f` from `a` to `b` with four nodes in each of `panels` equal panels.
 pub fn integrate(a: f64, b: f64, panels: usize, mut f: impl FnMut(f64) -> f64) -> f64 {
+    let [integral] = integrate_many(a, b, panels, |x| [f(x)]);
+    integral
+}
+
+/// The integrals of several functions that share their work, as [`integrate`].
+pub fn integrate_many<const N: usize>(a: f64, b: f64, panels: usize, mut f: impl FnMut(f64) -> [f64; N]) -> [f64; N] {
     let width = (b - a) / panels as f64;
-    (0..panels)
-        .map(|panel| {
-            let start = a + panel as f64 * width;
-            let sum: f64 = NODES.iter().zip(WEIGHTS).map(|(node, weight)| weight * f(start + node * width)).sum();
-            sum * width
-        })
-        .sum()
+    let mut sums = [0.0; N];
+    for panel in 0..panels {
+        let start = a + panel as f64 * width;
+        for (node, weight) in NODES.into_iter().zip(WEIGHTS) {
+            for (sum, value) in sums.iter_mut().zip(f(start + node * width)) {
+                *sum += weight * value;
+            }
+        }
+    }
+    sums.map(|sum| sum * width)
 }
 
 #[cfg(test)]
