@@ -46,7 +46,7 @@ fn every_other_parameter_changes_the_picture_and_is_undone_to_the_byte() {
 #[test]
 fn a_parameter_without_effect_is_disabled() {
     let program = start_with_scene(quick_scene());
-    for (name, enabled) in [("sun: Elevation", true), ("sun: Latitude", false), ("film: Ev100", false)] {
+    for (name, enabled) in [("sun: Elevation", true), ("sun: Latitude", false), ("film: EV100", false)] {
         let node = program.get_by_role_and_label(Role::Slider, name);
         assert_eq!(!egui_kittest::kittest::NodeT::accesskit_node(&node).is_disabled(), enabled, "{name}");
     }

@@ -4,6 +4,9 @@ use std::ops::RangeInclusive;
 
 use super::{ParamError, types::choice_index};
 
+/// Words of parameter names that people write in capitals.
+const ACRONYMS: [&str; 2] = ["utc", "ev100"];
+
 /// How a slider maps its travel to the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
@@ -52,8 +55,10 @@ impl ParamInfo {
     /// The name for people: `elevation_deg` becomes "Elevation".
     #[must_use]
     pub fn label(&self) -> String {
-        let suffix = format!("_{}", self.unit.replace('/', "_"));
-        let words = self.name.strip_suffix(suffix.as_str()).unwrap_or(self.name).replace('_', " ");
+        let suffix = format!("_{}", self.unit.replace('/', "_").to_lowercase());
+        let name = self.name.strip_suffix(suffix.as_str()).unwrap_or(self.name);
+        let shown = |word: &str| if ACRONYMS.contains(&word) { word.to_uppercase() } else { word.to_owned() };
+        let words = name.split('_').map(shown).collect::<Vec<_>>().join(" ");
         let mut letters = words.chars();
         letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
     }

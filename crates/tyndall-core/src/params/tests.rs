@@ -18,6 +18,10 @@ params! {
         /// Elevation above
         /// the horizon.
         elevation_deg: f64 = 30.0, ["deg", -90.0..=90.0, Linear], "Example, eq. 1";
+        /// Hours ahead of UTC.
+        utc_offset_h: f64 = 0.0, ["h", -12.0..=14.0, Linear], "Example";
+        /// Column of ozone.
+        ozone_du: f64 = 300.0, ["DU", 0.0..=1000.0, Linear], "Example";
         /// Number of cells.
         cells: u32 = 64, ["1", 8..=1024, Log], "Example, eq. 2";
         /// Switch.
@@ -37,10 +41,11 @@ fn every_default_is_an_allowed_value() {
 
 #[test]
 fn text_survives_the_way_through_format_and_parse() {
-    let mut thing = Thing { elevation_deg: -0.125, cells: 1000, on: false, shape: Shape::Round };
+    let mut thing =
+        Thing { elevation_deg: -0.125, utc_offset_h: 5.5, ozone_du: 0.0, cells: 1000, on: false, shape: Shape::Round };
     assert_eq!(thing.shape.name(), "round");
     let texts: Vec<_> = thing.info().iter().enumerate().map(|(i, info)| info.format(thing.get(i))).collect();
-    assert_eq!(texts, ["-0.125", "1000", "false", "round"]);
+    assert_eq!(texts, ["-0.125", "5.5", "0.0", "1000", "false", "round"]);
     let written = thing.clone();
     thing = Thing::default();
     for (info, text) in Thing::default().info().iter().zip(&texts) {
@@ -76,6 +81,6 @@ fn messages_name_value_unit_and_allowed_range() {
 fn labels_drop_the_unit_and_docs_lose_their_line_breaks() {
     let thing = Thing::default();
     let labels: Vec<_> = thing.info().iter().map(super::ParamInfo::label).collect();
-    assert_eq!(labels, ["Elevation", "Cells", "On", "Shape"]);
+    assert_eq!(labels, ["Elevation", "UTC offset", "Ozone", "Cells", "On", "Shape"]);
     assert_eq!(thing.info()[0].doc, "Elevation above the horizon.");
 }
