@@ -74,8 +74,8 @@ fn the_column_table_of_the_gpu_is_the_one_of_the_cpu() {
             worst = worst.max((f64::from(got[OZONE]) - want[OZONE]).abs() / want[OZONE].max(vertical));
         }
         println!("column table, GPU against CPU: worst {worst:.1e}");
-        // Ozone's tent has kinks, which the GPU's fewer panels cross elsewhere.
-        assert!(worst < 1e-2, "{worst:.1e}");
+        // The worst is ozone: the kinks of its tent cost either quadrature 0.1 to 0.2 %; air and aerosol agree to 1e-3.
+        assert!(worst < 5e-3, "{worst:.1e}");
     }
 }
 

@@ -104,6 +104,12 @@ impl Texture {
         &self.view
     }
 
+    /// The whole texture as a resource of a bind group.
+    #[must_use]
+    pub fn as_binding(&self) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::TextureView(self.view())
+    }
+
     /// Width and height in texels.
     #[must_use]
     pub fn size_px(&self) -> [u32; 2] {

@@ -52,15 +52,14 @@ impl DevelopRenderer {
     /// # Errors
     /// When the target does not fit the shaders.
     pub fn prepare(&self, gpu: &Gpu, frame: &Buffer, target: &FrameTarget) -> Result<DevelopDrawData, RenderError> {
-        let texture = || wgpu::BindingResource::TextureView(target.frame.view());
         let meter = [
             ("frame", frame.as_entire_binding()),
-            ("meter_frame", texture()),
+            ("meter_frame", target.frame.as_binding()),
             ("meter_gain", self.gain.as_entire_binding()),
         ];
         let develop = [
             ("frame", frame.as_entire_binding()),
-            ("develop_frame", texture()),
+            ("develop_frame", target.frame.as_binding()),
             ("develop_gain", self.gain.as_entire_binding()),
         ];
         Ok(DevelopDrawData { meter: self.meter.bind(gpu, 1, &meter)?, develop: self.develop.bind(gpu, 1, &develop)? })

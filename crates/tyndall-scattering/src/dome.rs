@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::sky_view_table::sky_view_map_inverse;
+use crate::sky_view_map::sky_view_map_inverse;
 
 /// A dome of `2 * rings` rings of quadrilaterals and `segments` around.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -32,6 +32,7 @@ pub mod phase;
 pub mod quadrature;
 pub mod single_scattering;
 pub mod sky_diffuse_table;
+pub mod sky_view_map;
 pub mod sky_view_table;
 pub mod sun_disc;
 

@@ -14,7 +14,7 @@ use crate::geometry::Ray;
 use crate::march::Marcher;
 use crate::orders::{SourceTable, diffuse_scattered};
 use crate::single_scattering::RayEnd;
-use crate::sky_view_table::{ROWS_PER_ROW_BELOW, horizon_elevation, row_length_m, sky_view_map, sky_view_map_inverse};
+use crate::sky_view_map::{ROWS_PER_ROW_BELOW, horizon_elevation, row_length_m, sky_view_map, sky_view_map_inverse};
 
 /// Linear Rec.709 (cd/m^2).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@ use tyndall_scattering::orders::media::ScatteringMedia;
 use tyndall_scattering::orders::nodes::Nodes;
 use tyndall_scattering::params::GroundPattern;
 use tyndall_scattering::phase::Phase;
-use tyndall_scattering::sky_view_table::{ROWS_PER_ROW_BELOW, horizon_elevation};
+use tyndall_scattering::sky_view_map::{ROWS_PER_ROW_BELOW, horizon_elevation};
 use tyndall_scattering::sun_disc::limb_exponents;
 use tyndall_scene::{Scene, SceneError};
 

@@ -14,7 +14,6 @@ use tyndall_scattering::orders::basis::harmonic_count;
 use tyndall_scattering::orders::{OrdersQuality, SourceTable};
 
 use super::gpu_data::{Atmosphere, Orders};
-use super::tables::view_of;
 use crate::RenderError;
 
 /// Bytes of one spectrum in the table.
@@ -160,7 +159,7 @@ impl OrdersTable {
         self.table = table(gpu, bytes)?;
         let suns = SunRows::new(gpu, quality)?;
 
-        suns.submit(gpu, &self.first, &self.bindings(&[("column_table", view_of(columns)), target(&last)]))?;
+        suns.submit(gpu, &self.first, &self.bindings(&[("column_table", columns.as_binding()), target(&last)]))?;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("order 1") });
         // The irradiance of the first order has a table of its own.
         encoder.copy_buffer_to_buffer(&last, 0, &self.table, 0, (harmonics * SPECTRUM_BYTES) as u64);

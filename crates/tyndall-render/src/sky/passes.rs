@@ -5,7 +5,7 @@ use tyndall_gpu::{Buffer, Gpu, RenderPipeline, RenderPipelineDesc, Shader};
 use tyndall_scattering::dome::Dome;
 use tyndall_scene::SkyMode;
 
-use super::tables::{SkyTables, view_of};
+use super::tables::SkyTables;
 use crate::target::DEPTH_FORMAT;
 use crate::{RenderError, RendererConfig};
 
@@ -76,18 +76,18 @@ impl SkyRenderer {
     ) -> Result<SkyDrawData, RenderError> {
         let common = [
             ("atmosphere", tables.atmosphere.as_entire_binding()),
-            ("column_table", view_of(&tables.columns)),
+            ("column_table", tables.columns.as_binding()),
             ("sky_view", tables.view.as_entire_binding()),
-            ("sky_view_air", view_of(&tables.sky_view_air)),
-            ("sky_view_aerosol", view_of(&tables.sky_view_aerosol)),
-            ("sky_view_diffuse", view_of(&tables.sky_view_diffuse)),
+            ("sky_view_air", tables.sky_view_air.as_binding()),
+            ("sky_view_aerosol", tables.sky_view_aerosol.as_binding()),
+            ("sky_view_diffuse", tables.sky_view_diffuse.as_binding()),
         ];
         let sky = match mode {
             SkyMode::PerPixel => &self.per_pixel,
             SkyMode::VertexDome => &self.dome,
         };
         let mut with_irradiance = common.to_vec();
-        with_irradiance.push(("irradiance_table", view_of(&tables.irradiance)));
+        with_irradiance.push(("irradiance_table", tables.irradiance.as_binding()));
         let frame = [("frame", frame.as_entire_binding())];
         Ok(SkyDrawData {
             ground: [self.ground.bind(gpu, 0, &with_irradiance)?, self.ground.bind(gpu, 1, &frame)?],

@@ -122,7 +122,7 @@ impl SkyTables {
         let bindings = self.fill_columns.bind(
             gpu,
             0,
-            &[("atmosphere", self.atmosphere.as_entire_binding()), ("column_texels", view_of(&self.columns))],
+            &[("atmosphere", self.atmosphere.as_entire_binding()), ("column_texels", self.columns.as_binding())],
         )?;
         let [width, height] = self.columns.size_px();
         dispatch(encoder, timer, "column table", &self.fill_columns, &bindings, [width, height, 1]);
@@ -140,8 +140,8 @@ impl SkyTables {
             0,
             &[
                 ("atmosphere", self.atmosphere.as_entire_binding()),
-                ("column_table", view_of(&self.columns)),
-                ("irradiance_texels", view_of(&self.irradiance)),
+                ("column_table", self.columns.as_binding()),
+                ("irradiance_texels", self.irradiance.as_binding()),
             ],
         )?;
         let suns = small(IRRADIANCE_TABLE_SIZE);
@@ -153,7 +153,7 @@ impl SkyTables {
             &[
                 ("orders", self.orders.uniform.as_entire_binding()),
                 ("orders_source", self.orders.table.as_entire_binding()),
-                ("irradiance_texels", view_of(&self.irradiance)),
+                ("irradiance_texels", self.irradiance.as_binding()),
             ],
         )?;
         let name = "irradiance table, diffuse";
@@ -172,10 +172,10 @@ impl SkyTables {
             0,
             &[
                 ("atmosphere", self.atmosphere.as_entire_binding()),
-                ("column_table", view_of(&self.columns)),
+                ("column_table", self.columns.as_binding()),
                 ("sky_view", self.view.as_entire_binding()),
-                ("sky_view_air_texels", view_of(&self.sky_view_air)),
-                ("sky_view_aerosol_texels", view_of(&self.sky_view_aerosol)),
+                ("sky_view_air_texels", self.sky_view_air.as_binding()),
+                ("sky_view_aerosol_texels", self.sky_view_aerosol.as_binding()),
             ],
         )?;
         let [width, height] = self.sky_view_air.size_px();
@@ -188,7 +188,7 @@ impl SkyTables {
                 ("sky_view", self.view.as_entire_binding()),
                 ("orders", self.orders.uniform.as_entire_binding()),
                 ("orders_source", self.orders.table.as_entire_binding()),
-                ("sky_view_diffuse_texels", view_of(&self.sky_view_diffuse)),
+                ("sky_view_diffuse_texels", self.sky_view_diffuse.as_binding()),
             ],
         )?;
         let [width, height] = self.sky_view_diffuse.size_px();
@@ -234,10 +234,6 @@ const IRRADIANCE_ROWS: u32 = 4;
 fn table(gpu: &Gpu, label: &str, size_px: [u32; 2]) -> Result<Texture, RenderError> {
     let usage = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
     Ok(gpu.texture(&TextureDesc::new_2d(label, size_px, TextureFormat::Rgba32Float, usage))?)
-}
-
-pub(super) fn view_of(texture: &Texture) -> wgpu::BindingResource<'_> {
-    wgpu::BindingResource::TextureView(texture.view())
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "sizes of tables")]
