@@ -145,7 +145,9 @@ mod tests {
         let points = sample_box(&[-1.0..=1.0, 2.0..=2.0, 0.0..=10.0, -5.0..=-4.0], 1000);
         assert_eq!(points.len(), 1000, "as many as asked for");
         assert!(points.contains(&[1.0, 2.0, 0.0, -4.0]), "a corner");
-        let inside = |p: &[f32; 4]| p[0].abs() <= 1.0 && p[1] == 2.0 && (0.0..=10.0).contains(&p[2]) && p[3] <= -4.0;
+        let inside = |p: &[f32; 4]| {
+            p[0].abs() <= 1.0 && (p[1] - 2.0).abs() < 1e-6 && (0.0..=10.0).contains(&p[2]) && p[3] <= -4.0
+        };
         assert!(points.iter().all(inside), "no point leaves the box");
         let mean: f64 = points.iter().map(|p| f64::from(p[2])).sum::<f64>() / 1000.0;
         assert!((mean - 5.0).abs() < 0.1, "evenly spread, but the mean of 0..10 is {mean}");
