@@ -15,6 +15,7 @@ use crate::Atmosphere;
 use crate::atmosphere::{AEROSOL, AIR, MEDIUM_COUNT, OZONE, SCATTERER_COUNT};
 use crate::geometry::{distance_to_top, horizon_mu};
 use crate::optical_length::{Columns, columns_to_top};
+use crate::texel::Texel;
 
 /// Texels of the table: distances, altitudes.
 pub const COLUMN_TABLE_SIZE: [usize; 2] = [256, 128];
@@ -29,27 +30,7 @@ pub struct ColumnTable {
     top_altitude_m: f64,
     scale_heights_m: [f64; SCATTERER_COUNT],
     /// ln (air / density), ln (aerosol / density), ozone.
-    cells: Grid2<Texel>,
-}
-
-/// Sums and multiples of texels, for interpolation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Texel([f64; MEDIUM_COUNT]);
-
-impl std::ops::Add for Texel {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
-    }
-}
-
-impl std::ops::Mul<f64> for Texel {
-    type Output = Self;
-
-    fn mul(self, factor: f64) -> Self {
-        Self(self.0.map(|value| value * factor))
-    }
+    cells: Grid2<Texel<MEDIUM_COUNT>>,
 }
 
 impl ColumnTable {

@@ -35,6 +35,7 @@ pub mod sky_diffuse_table;
 pub mod sky_view_map;
 pub mod sky_view_table;
 pub mod sun_disc;
+mod texel;
 
 pub use atmosphere::Atmosphere;
 pub use error::ScatteringError;

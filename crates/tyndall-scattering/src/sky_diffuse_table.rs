@@ -15,35 +15,16 @@ use crate::march::Marcher;
 use crate::orders::{SourceTable, diffuse_scattered};
 use crate::single_scattering::RayEnd;
 use crate::sky_view_map::{ROWS_PER_ROW_BELOW, horizon_elevation, row_length_m, sky_view_map, sky_view_map_inverse};
-
-/// Linear Rec.709 (cd/m^2).
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Texel([f64; 3]);
-
-impl std::ops::Add for Texel {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
-    }
-}
-
-impl std::ops::Mul<f64> for Texel {
-    type Output = Self;
-
-    fn mul(self, factor: f64) -> Self {
-        Self(self.0.map(|value| value * factor))
-    }
-}
+use crate::texel::Texel;
 
 /// Light of higher orders for one observer and one sun.
 #[derive(Clone, Debug)]
 pub struct SkyDiffuseTable {
     horizon_elevation: f64,
-    /// Above the horizon: azimuths x rows, row 0 at the horizon.
-    above: Grid2<Texel>,
-    /// Below the horizon: azimuths x rows, row 0 at the horizon.
-    below: Grid2<Texel>,
+    /// Linear Rec.709 (cd/m^2) above the horizon: azimuths x rows, row 0 at the horizon.
+    above: Grid2<Texel<3>>,
+    /// The same below the horizon.
+    below: Grid2<Texel<3>>,
 }
 
 impl SkyDiffuseTable {
