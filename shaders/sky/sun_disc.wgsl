@@ -3,6 +3,7 @@
 // Formulas: tyndall_scattering::sun_disc.
 // @import frame/frame.wgsl
 // @import sky/column_lookup.wgsl
+// @import sky/refraction.wgsl
 // @import sky/view.wgsl
 
 const SUN_SAMPLES_MAX: u32 = 32u;
@@ -37,8 +38,9 @@ fn sun_disc_radiance(plane: vec2<f32>) -> vec3<f32> {
     let centre = frame_direction(plane);
     let pixel = frame_pixel_angle(plane);
     let radius = sky_view.sun_angular_radius;
-    let reach = 2.0 * sin(0.5 * radius) + pixel;
-    if (sky_view.sun_visible == 0u || distance(centre, sky_view.sun_direction) > reach) {
+    // The air flattens the disc but widens nothing; a pixel's corners are lifted by about as much as its centre.
+    let reach = 2.0 * sin(0.5 * radius) + 1.5 * pixel;
+    if (sky_view.sun_visible == 0u || distance(refraction_true(centre), sky_view.sun_direction) > reach) {
         return vec3<f32>(0.0);
     }
     let samples = clamp(u32(ceil(SUN_SAMPLES_ACROSS_DISC * pixel / (2.0 * radius))), 2u, SUN_SAMPLES_MAX);
@@ -48,7 +50,7 @@ fn sun_disc_radiance(plane: vec2<f32>) -> vec3<f32> {
         for (var x = 0u; x < samples; x++) { // loops: SUN_SAMPLES_MAX
             let offset = (vec2<f32>(f32(x), f32(y)) + 0.5) / f32(samples) - 0.5;
             let direction = frame_direction(plane + offset * frame_pixel_size());
-            let apart = direction - sky_view.sun_direction;
+            let apart = refraction_true(direction) - sky_view.sun_direction;
             let above = direction.z >= sin(sky_view.horizon_elevation);
             let share_squared = select(1.0, dot(apart, apart) / (chord * chord), above);
             sum = spectrum_add(sum, sun_limb(share_squared));

@@ -40,6 +40,7 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "sky/orders_sum.wgsl",
     "sky/orders_suns.wgsl",
     "sky/quadrature.wgsl",
+    "sky/refraction.wgsl",
     "sky/sky.wgsl",
     "sky/sky_view_diffuse.wgsl",
     "sky/sky_view_lookup.wgsl",

@@ -88,7 +88,14 @@ pub(crate) const ALL: &[Precondition] = &[
             scene.sun.elevation_deg = 10.0;
             scene.sun.angular_radius_deg = 4.0;
         },
-        parameters: &[("sun.disc", None), ("sun.angular_radius_deg", None), ("sun.limb_darkening", None)],
+        parameters: &[
+            ("sun.disc", None),
+            ("sun.angular_radius_deg", None),
+            ("sun.limb_darkening", None),
+            ("sun.refraction", None),
+            ("sun.pressure_hpa", None),
+            ("sun.temperature_c", Some(-50.0)),
+        ],
     },
     Precondition {
         name: "the sun by date",

@@ -4,6 +4,7 @@ use tyndall_core::spectrum::xyz_from_spectrum;
 use tyndall_io::{ExrOptions, Picture, PictureMetadata, Precision, read_exr, write_exr};
 use tyndall_scattering::Atmosphere;
 use tyndall_scattering::column_table::ColumnTable;
+use tyndall_scattering::refraction::RefractionTable;
 use tyndall_scene::Scene;
 
 use crate::render::{Studio, luminance, scene};
@@ -47,9 +48,11 @@ fn the_suns_disc_in_an_exr_holds_the_suns_light_at_every_width_and_subpixel_plac
         let at = |disc: &str| {
             let look = [("camera.pitch_deg", "35.02"), ("camera.heading_deg", heading.as_str()), ("sun.disc", disc)];
             let place = [("sun.elevation_deg", "35"), ("sun.azimuth_deg", "0"), ("camera.field_of_view_deg", "20")];
+            // Refraction makes the disc 0.1 % flatter here; the sun of this test is round.
+            let place = [&place[..], &[("sun.refraction", "false")]].concat();
             // The sky is subtracted: one order of it will do.
             let single = [("sky.orders", "single"), ("sky.table_elevations", "32"), ("sky.table_azimuths", "16")];
-            scene("noon", &[look, place, single].concat())
+            scene("noon", &[&look[..], &place, &single].concat())
         };
         let [with, without] = ["true", "false"].map(|disc| {
             let rgba = studio.radiance(&at(disc), size);
@@ -76,6 +79,7 @@ fn the_disc_is_darker_and_redder_at_its_limb() {
         ("sun.elevation_deg", "35"),
         ("sun.azimuth_deg", "0"),
         ("camera.heading_deg", "0"),
+        ("sun.refraction", "false"),
     ];
     let size = [200, 200];
     let pixels = studio.radiance(&scene("noon", &close), size);
@@ -92,4 +96,42 @@ fn the_disc_is_darker_and_redder_at_its_limb() {
     assert!((ratio / 0.5_f64.powf(0.503) - 1.0).abs() < 0.03, "{ratio}");
     assert!(limb[0] / limb[2] > 1.05 * centre[0] / centre[2], "{centre:?} {limb:?}");
     assert!(luminance(pixel(1.2)) < 1e-3 * luminance(limb), "sharp edge");
+}
+
+/// The lit part of a picture of one degree about a pitch (deg): lowest and highest elevation, and width (deg).
+fn extent(pixels: &[[f32; 4]], side: usize, pitch_deg: f64) -> [f64; 3] {
+    let lit: Vec<usize> = (0..pixels.len()).filter(|i| luminance(pixels[*i]) > 1e5).collect();
+    let degrees = |pixel: usize| (pixel as f64 + 0.5 - 0.5 * side as f64) / side as f64;
+    let range = |of: &dyn Fn(usize) -> f64| {
+        let half_pixel = 0.5 / side as f64;
+        lit.iter().fold((9.0, -9.0), |(low, high): (f64, f64), i| {
+            (low.min(of(*i) - half_pixel), high.max(of(*i) + half_pixel))
+        })
+    };
+    let ((low, high), (left, right)) = (range(&|i| pitch_deg - degrees(i / side)), range(&|i| degrees(i % side)));
+    [low, high, right - left]
+}
+
+#[test]
+fn the_rising_sun_is_lifted_by_half_a_degree_and_flattened_by_a_sixth() {
+    let mut studio = Studio::new();
+    // A telescope at the horizon in thin air that bends light as ours does: what shines is the disc.
+    let at = |refraction: &str| {
+        let sun = [("sun.elevation_deg", "-0.3"), ("sun.azimuth_deg", "0"), ("sun.limb_darkening", "false")];
+        let camera = [("camera.pitch_deg", "0.35"), ("camera.heading_deg", "0"), ("camera.field_of_view_deg", "1")];
+        let air = [("atmosphere.aerosol_optical_depth", "0"), ("sun.refraction", refraction), ("sky.orders", "single")];
+        scene("noon", &[&sun[..], &camera, &air, &[("camera.altitude_m", "0.1")]].concat())
+    };
+    let bent = at("true");
+    let [low, high, width] = extent(&studio.radiance(&bent, [200, 200]), 200, 0.35);
+    let table = RefractionTable::new(&bent.refractive_air().expect("refraction is on"), 0.1);
+    let [lower, upper] = [-0.5667, -0.0333].map(|deg: f64| table.apparent(deg.to_radians()).to_degrees());
+    println!("the sun at -0.3 deg is seen from {low:.3} to {high:.3} deg, {:.3} as high as wide", (high - low) / width);
+    // A pixel is 0.005 deg.
+    assert!((low - lower).abs() < 0.008 && (high - upper).abs() < 0.008, "{low} {high}, by the table {lower} {upper}");
+    assert!(((high - low) / width - 0.845).abs() < 0.025, "{low} {high} {width}");
+
+    // Without refraction the upper limb is all below the level line.
+    let [_, high, _] = extent(&studio.radiance(&at("false"), [200, 200]), 200, 0.35);
+    assert!(high < 0.0, "{high}");
 }

@@ -7,6 +7,7 @@ use tyndall_gpu::layout::StructLayout;
 use tyndall_gpu::rust_layout;
 use tyndall_render::frame::gpu_data::Frame;
 use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyView};
+use tyndall_render::sky::night::gpu_data::Refraction;
 
 use crate::modules::{Module, assert_no_faults, faults_in, valid};
 
@@ -61,6 +62,7 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
             }),
         ),
         orders(),
+        ("Refraction", rust_layout!(Refraction { lift, horizon_elevation, padding0, padding1, padding2 })),
         (
             "SkyView",
             rust_layout!(SkyView {

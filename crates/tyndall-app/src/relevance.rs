@@ -32,6 +32,7 @@ fn sun(scene: &Scene, name: &str) -> Option<&'static str> {
         "year" | "month" | "day" | "time_h" | "utc_offset_h" | "latitude_deg" | "longitude_deg" if !by_date => {
             Some("The angles say where the sun stands; set Position to date.")
         }
+        "pressure_hpa" | "temperature_c" if !scene.sun.refraction => Some("Light goes straight; switch Refraction on."),
         "limb_darkening" if !scene.sun.disc => Some("The disc is not drawn; switch Disc on."),
         _ => None,
     }

@@ -72,6 +72,7 @@ impl Renderer {
         let model = Atmosphere::new(&scene.atmosphere, &scene.ground);
         let uniforms = (AtmosphereUniform::new(&model, scene.sun.brightness)?, SkyView::new(scene, &model)?);
         let orders = OrdersRequest { model: &model, quality: orders_quality(scene), brightness: scene.sun.brightness };
+        self.tables.update_night(gpu, scene, &model);
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
         self.record_scene(gpu, &mut encoder, scene, target)?;
         let data = self.develop.prepare(gpu, &self.frame, target)?;

@@ -12,7 +12,9 @@
 //!
 //! Light scattered more than once is the business of [`orders`]: one table for all suns, marched like the others.
 //!
-//! Not done here: refraction, polarisation.
+//! The sky's light travels straight; [`refraction`] says where the sun, the moon and the stars appear.
+//!
+//! Not done here: polarisation.
 
 pub mod air;
 pub mod atmosphere;
@@ -30,6 +32,7 @@ pub mod ozone;
 pub mod params;
 pub mod phase;
 pub mod quadrature;
+pub mod refraction;
 pub mod single_scattering;
 pub mod sky_diffuse_table;
 pub mod sky_view_map;

@@ -1,6 +1,8 @@
 //! The scene: all groups of parameters, reached by path.
 
+use tyndall_core::units::M_PER_KM;
 use tyndall_core::{ParamInfo, ParamSet};
+use tyndall_scattering::refraction::RefractiveAir;
 
 use crate::{
     AtmosphereParams, CameraParams, FilmParams, GroundParams, ImageParams, SceneError, SceneHash, SkyParams,
@@ -106,6 +108,15 @@ impl Scene {
     pub fn sun_direction(&self) -> Result<SunDirection, SceneError> {
         check_group("sun", &self.sun)?;
         sun::direction(&self.sun)
+    }
+
+    /// The air that lifts and flattens the discs of sun and moon; `None` when refraction is off.
+    #[must_use]
+    pub fn refractive_air(&self) -> Option<RefractiveAir> {
+        let (air, sun) = (&self.atmosphere, &self.sun);
+        let (radius_m, scale_height_m) = (air.planet_radius_km * M_PER_KM, air.air_scale_height_km * M_PER_KM);
+        let bent = RefractiveAir::new(radius_m, air.air_density, scale_height_m, sun.pressure_hpa, sun.temperature_c);
+        sun.refraction.then_some(bent)
     }
 
     /// Hash of all parameters: what a picture's header stores to tell whether the picture is still that of its scene.

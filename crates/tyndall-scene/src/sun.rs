@@ -2,7 +2,8 @@
 //!
 //! From date, time and place it follows the solar position algorithm of Reda and Andreas 2004 (NREL/TP-560-34302), good to
 //! 0.0003 degrees for years near ours. The observer stands at sea level (an airliner sees the sun 4e-6 degrees elsewhere),
-//! and the air does not bend the light: at the horizon the real sun appears 0.6 degrees higher.
+//! and angles are those without air: [`Scene::refractive_air`](crate::Scene::refractive_air) says how much higher the sun
+//! appears.
 
 use glam::DVec3;
 use solar_positioning::{Location, SolarPositions, delta_t, time::JulianDate};

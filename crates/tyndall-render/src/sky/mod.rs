@@ -5,6 +5,7 @@
 //! pixel or, as in the paper, on a dome of coloured vertices.
 
 pub mod gpu_data;
+pub mod night;
 mod orders;
 mod passes;
 mod tables;

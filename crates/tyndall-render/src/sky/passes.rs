@@ -86,12 +86,13 @@ impl SkyRenderer {
             SkyMode::PerPixel => &self.per_pixel,
             SkyMode::VertexDome => &self.dome,
         };
+        let with_night = [&common[..], &tables.night.bindings()].concat();
         let mut with_irradiance = common.to_vec();
         with_irradiance.push(("irradiance_table", tables.irradiance.as_binding()));
         let frame = [("frame", frame.as_entire_binding())];
         Ok(SkyDrawData {
             ground: [self.ground.bind(gpu, 0, &with_irradiance)?, self.ground.bind(gpu, 1, &frame)?],
-            sky: [sky.bind(gpu, 0, &common)?, sky.bind(gpu, 1, &frame)?],
+            sky: [sky.bind(gpu, 0, &with_night)?, sky.bind(gpu, 1, &frame)?],
             dome: (mode == SkyMode::VertexDome).then_some(dome),
         })
     }

@@ -2,11 +2,14 @@
 
 use tyndall_gpu::wgpu::{self, BufferUsages, TextureFormat, TextureUsages};
 use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, Shader, Texture, TextureDesc};
+use tyndall_scattering::Atmosphere as Model;
 use tyndall_scattering::column_table::COLUMN_TABLE_SIZE;
 use tyndall_scattering::irradiance_table::IRRADIANCE_TABLE_SIZE;
 use tyndall_scattering::orders::OrdersQuality;
+use tyndall_scene::Scene;
 
 use super::gpu_data::{Atmosphere, SkyView};
+use super::night::Night;
 use super::orders::{OrdersRequest, OrdersTable};
 use crate::RenderError;
 
@@ -29,6 +32,7 @@ pub struct SkyTables {
     pub(super) sky_view_air: Texture,
     pub(super) sky_view_aerosol: Texture,
     pub(super) sky_view_diffuse: Texture,
+    pub(super) night: Night,
     filled_for: Option<(Inputs, [u32; 8])>,
 }
 
@@ -56,8 +60,14 @@ impl SkyTables {
             sky_view_air: table(gpu, "sky-view table, air", [8, 8])?,
             sky_view_aerosol: table(gpu, "sky-view table, aerosol", [8, 8])?,
             sky_view_diffuse: table(gpu, "sky-view table, diffuse", [8, 8])?,
+            night: Night::new(gpu)?,
             filled_for: None,
         })
+    }
+
+    /// Uploads what the sky of the night follows from.
+    pub fn update_night(&mut self, gpu: &Gpu, scene: &Scene, model: &Model) {
+        self.night.update(gpu, scene, model);
     }
 
     /// Uploads the uniforms and records the filling of the tables whose inputs changed.

@@ -13,7 +13,7 @@ choices! {
 }
 
 params! {
-    /// The sun. Angles are geometric: the air does not lift the sun, as light travels in straight lines throughout.
+    /// The sun. Angles are geometric: where the sun would stand without air.
     pub struct SunParams {
         /// Whether the angles say where the sun stands, or the date, the time and the place.
         position: SunPosition = SunPosition::Angles, "scene convention";
@@ -43,5 +43,12 @@ params! {
         disc: bool = true, "scene convention";
         /// Whether the disc darkens towards its edge, blue more than red.
         limb_darkening: bool = true, "Hestroffer and Magnan 1998";
+        /// Whether the air lifts and flattens the discs of sun and moon and lifts the stars: by half a degree at the horizon. The
+        /// light of the sky is computed along straight rays all the same.
+        refraction: bool = true, "ray trace; Bennett 1982";
+        /// Pressure of the air at sea level, for refraction.
+        pressure_hpa: f64 = 1010.0, ["hPa", 0.0..=2000.0, Linear], "Bennett 1982";
+        /// Temperature of the air at sea level, for refraction; cold air lifts the sun more.
+        temperature_c: f64 = 10.0, ["C", -90.0..=60.0, Linear], "Bennett 1982";
     }
 }
