@@ -240,7 +240,8 @@ mod tests {
             let found = earth().bending(0.0, f64::to_radians(apparent_deg)) / ARC_MINUTE;
             let published = bennett_minutes(apparent_deg);
             println!("{apparent_deg} deg: {found:.3}' against {published:.3}'");
-            // His own accuracy is 0.07' (he has 59.7" at 45 degrees where Snell's law has 58.0"), against the tables of his time, which differ by a minute at the horizon.
+            // His own accuracy is 0.07' (at 45 degrees he has 59.7" where Snell's law gives 58.0") against tables that differ
+            // by a minute at the horizon.
             let allowed = if apparent_deg < 5.0 { 0.8 } else { 0.12 };
             assert!((found - published).abs() < allowed, "{apparent_deg} deg: {found}' {published}'");
         }
@@ -303,8 +304,8 @@ mod tests {
             for step in 1..200 {
                 let elevation = low + (FRAC_PI_2 - low) * (f64::from(step) / 200.0).powi(3);
                 let error = (table.lookup(elevation) - air.bending(h_m, elevation)).abs();
-                // A hundred-and-sixtieth of the sun's disc.
-                assert!(error < 0.2 * ARC_MINUTE, "{h_m} m, {elevation}: {} '", error / ARC_MINUTE);
+                // A hundredth of the sun's disc; worst from space, where the bending falls by e in a fifth of a degree.
+                assert!(error < 0.3 * ARC_MINUTE, "{h_m} m, {elevation}: {} '", error / ARC_MINUTE);
             }
         }
     }
