@@ -1,4 +1,4 @@
-//! Times frames: first, still, and with a moving sun, for each preset and size, on one adapter.
+//! Times frames: first, still, with a moving sun and with changing air, for each preset and size, on one adapter.
 
 mod scene_run;
 
@@ -47,6 +47,7 @@ fn main() -> Result<()> {
             print_line(&row(preset.name, *size_px, &run))?;
             print_line(&passes("still", &run.still.passes))?;
             print_line(&passes("sun moves", &run.moving.passes))?;
+            print_line(&passes("air changes", &run.air.passes))?;
             json_lines.write(&figures(gpu.adapter(), preset.name, *size_px, &run))?;
         }
     }
@@ -56,7 +57,7 @@ fn main() -> Result<()> {
 fn heading(adapter: &AdapterReport, frames: u16) -> String {
     format!(
         "{adapter}, {} CPU threads; milliseconds; series of {frames} frames\n{:<14} {:>9} | {:>7} {:>7} | {:>7} {:>7} | \
-         {:>9} {:>7}",
+         {:>9} {:>7} | {:>11} {:>7} | {:>11} {:>7}",
         std::thread::available_parallelism().map_or(1, usize::from),
         "scene",
         "size",
@@ -65,6 +66,10 @@ fn heading(adapter: &AdapterReport, frames: u16) -> String {
         "still",
         "p95",
         "sun moves",
+        "p95",
+        "air waiting",
+        "p95",
+        "air changes",
         "p95"
     )
 }
@@ -72,14 +77,20 @@ fn heading(adapter: &AdapterReport, frames: u16) -> String {
 fn row(name: &str, [width_px, height_px]: [u32; 2], run: &SceneRun) -> String {
     let size = format!("{width_px}x{height_px}");
     let (still, moving) = (&run.still.wall, &run.moving.wall);
+    let (waiting, air) = (&run.air_waiting.wall, &run.air.wall);
     format!(
-        "{name:<14} {size:>9} | {:>7.1} {:>7.1} | {:>7.2} {:>7.2} | {:>9.2} {:>7.2}",
+        "{name:<14} {size:>9} | {:>7.1} {:>7.1} | {:>7.2} {:>7.2} | {:>9.2} {:>7.2} | {:>11.2} {:>7.2} | \
+         {:>11.2} {:>7.2}",
         run.first_ms,
         run.first_tables_ms,
         still.median_ms(),
         still.p95_ms(),
         moving.median_ms(),
-        moving.p95_ms()
+        moving.p95_ms(),
+        waiting.median_ms(),
+        waiting.p95_ms(),
+        air.median_ms(),
+        air.p95_ms()
     )
 }
 
@@ -100,6 +111,8 @@ fn figures(adapter: &AdapterReport, name: &str, size_px: [u32; 2], run: &SceneRu
         "first_tables_ms": run.first_tables_ms,
         "still": series(&run.still),
         "sun_moves": series(&run.moving),
+        "air_waiting": series(&run.air_waiting),
+        "air_changes": series(&run.air),
     })
 }
 

@@ -6,14 +6,18 @@ use std::time::Instant;
 use anyhow::Result;
 use tyndall_benches::Samples;
 use tyndall_gpu::Gpu;
+use tyndall_render::sky::{TableBuilding, Wake};
 use tyndall_render::{FrameTarget, Renderer, RendererConfig};
-use tyndall_scene::{Scene, SunPosition};
+use tyndall_scene::{OrdersDetail, Scene, SunPosition};
 
 /// Software adapters compile at the first draw; two frames are enough to be past that.
 const WARM_UP_FRAMES: u16 = 2;
 
 /// How far the sun moves between two frames: enough for every table that depends on it.
 const SUN_STEP_DEG: f64 = 0.05;
+
+/// How much the aerosol changes between two frames, as a share: enough for every table.
+const AEROSOL_STEP: f64 = 0.01;
 
 /// GPU time of each pass, by name.
 pub(crate) type PassTimes = BTreeMap<&'static str, Samples>;
@@ -38,6 +42,10 @@ pub(crate) struct SceneRun {
     pub(crate) still: Series,
     /// The sun moves, so that the tables that depend on it are filled for each frame.
     pub(crate) moving: Series,
+    /// The aerosol changes in every frame, in preview detail; the frame waits for its tables.
+    pub(crate) air_waiting: Series,
+    /// The same while the slow table is made beside the frames, as the app does.
+    pub(crate) air: Series,
 }
 
 impl SceneRun {
@@ -56,7 +64,10 @@ impl SceneRun {
         let first_tables_ms = draw(gpu, &mut renderer, &mut target, scene)?;
         let still = series(gpu, &mut renderer, &mut target, (0..frames).map(|_| scene.clone()))?;
         let moving = series(gpu, &mut renderer, &mut target, (0..frames).map(|frame| moved(scene, frame)))?;
-        Ok(Self { first_ms, first_tables_ms, still, moving })
+        let air_waiting = series(gpu, &mut renderer, &mut target, (0..frames).map(|frame| hazed(scene, frame)))?;
+        renderer.set_table_building(TableBuilding::Background(Wake::new(|| {})));
+        let air = series(gpu, &mut renderer, &mut target, (0..frames).map(|frame| hazed(scene, frame)))?;
+        Ok(Self { first_ms, first_tables_ms, still, moving, air_waiting, air })
     }
 }
 
@@ -66,6 +77,14 @@ fn moved(scene: &Scene, frame: u16) -> Scene {
     let step_deg = if scene.sun.elevation_deg > 45.0 { -SUN_STEP_DEG } else { SUN_STEP_DEG };
     scene.sun.position = SunPosition::Angles;
     scene.sun.elevation_deg += step_deg * f64::from(frame + 1);
+    scene
+}
+
+/// The scene with more aerosol, as while a slider is dragged.
+fn hazed(scene: &Scene, frame: u16) -> Scene {
+    let mut scene = scene.clone();
+    scene.sky.orders_detail = OrdersDetail::Preview;
+    scene.atmosphere.aerosol_optical_depth *= 1.0 + AEROSOL_STEP * f64::from(frame + 1);
     scene
 }
 

@@ -1,6 +1,7 @@
 //! Physics from end to end: the f64 reference against independent data, the GPU's tables and frames against the
 //! reference, and laws that a picture obeys.
 
+mod background;
 mod dome;
 mod gpu_orders;
 mod gpu_tables;

@@ -11,7 +11,7 @@ use crate::develop::DevelopRenderer;
 use crate::exposure::ev100_from_gain;
 use crate::frame::{frame_uniform, gpu_data};
 use crate::sky::gpu_data::{Atmosphere as AtmosphereUniform, SkyView};
-use crate::sky::{OrdersRequest, SkyRenderer, SkyTables};
+use crate::sky::{OrdersRequest, SkyRenderer, SkyTables, TableBuilding, TableProgress};
 use crate::{FrameTarget, RenderError, RendererConfig};
 
 /// Passes that a frame can have: five tables, scene, meter, development.
@@ -141,6 +141,17 @@ impl Renderer {
     #[must_use]
     pub fn tables(&self) -> &SkyTables {
         &self.tables
+    }
+
+    /// Chooses when the slow table of all orders is made; at first the frame waits for it.
+    pub fn set_table_building(&mut self, building: TableBuilding) {
+        self.tables.set_building(building);
+    }
+
+    /// How the table of all orders stands after the last frame.
+    #[must_use]
+    pub fn table_progress(&self) -> TableProgress {
+        self.tables.orders().progress()
     }
 
     /// Forgets the tables, so that the next frame fills them again; for timing.

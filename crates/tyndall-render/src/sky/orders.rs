@@ -1,29 +1,25 @@
 //! The table of diffuse light of all orders, for every sun. WGSL: `shaders/sky/orders_*.wgsl`.
 //!
 //! A GPU computes it itself; on a software adapter, which is the CPU, the Rust twin does the same work several times
-//! faster. Either way it is made anew only for another medium, ground or quality.
+//! faster. Either way it is made anew only for another medium, ground or quality, while the frame waits or beside the
+//! frames ([`TableBuilding`]).
 
-use tyndall_gpu::wgpu::{self, BufferUsages};
-use tyndall_gpu::{Buffer, ComputePipeline, Gpu, Shader, Texture};
-use tyndall_scattering::Atmosphere as Model;
-use tyndall_scattering::atmosphere::MEDIUM_COUNT;
-use tyndall_scattering::column_table::ColumnTable;
-use tyndall_scattering::march::Marcher;
-use tyndall_scattering::medium::Profile;
-use tyndall_scattering::orders::basis::harmonic_count;
-use tyndall_scattering::orders::{OrdersQuality, SourceTable};
+use tyndall_gpu::wgpu::BufferUsages;
+use tyndall_gpu::{Buffer, Gpu, Texture};
+use tyndall_scattering::orders::OrdersQuality;
+use tyndall_scattering::{Atmosphere as Model, ScatteringError};
 
+use super::building::{TableBuilding, TableProgress, Wake};
 use super::gpu_data::{Atmosphere, Orders};
+use super::orders_cpu::{CpuBuilder, Finished};
+use super::orders_gpu::{GpuBuild, GpuBuilder};
 use crate::RenderError;
 
 /// Bytes of one spectrum in the table.
-const SPECTRUM_BYTES: usize = 32;
+pub(super) const SPECTRUM_BYTES: usize = 32;
 
-/// Suns of one submission, so that none keeps a slow device busy for long.
-const SUNS_PER_SUBMISSION: u32 = 4;
-
-/// Panels of the f64 march where the CPU makes the table.
-const CPU_PANELS: usize = 8;
+/// Rows of suns that a GPU adds to a table in each frame: in preview detail it takes five frames.
+const ROWS_PER_FRAME: usize = 8;
 
 /// What the table is to hold.
 #[derive(Clone, Copy, Debug)]
@@ -36,24 +32,40 @@ pub struct OrdersRequest<'a> {
     pub brightness: f64,
 }
 
-/// The table, its uniforms and the pipelines that fill it.
-#[derive(Debug)]
-pub struct OrdersTable {
-    first: ComputePipeline,
-    next: ComputePipeline,
-    sum: ComputePipeline,
-    tail: ComputePipeline,
-    /// The atmosphere under our sun, whatever the scene's brightness.
-    atmosphere: Buffer,
-    pub(super) uniform: Buffer,
-    pub(super) table: Buffer,
-    holds: Option<(Atmosphere, OrdersQuality)>,
-    /// The columns of the last atmosphere on the CPU.
-    columns: Option<(Shape, ColumnTable)>,
+/// What a table follows from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Wanted {
+    /// The atmosphere under our sun.
+    pub(super) atmosphere: Atmosphere,
+    /// Sizes.
+    pub(super) quality: OrdersQuality,
+    /// Zenith cosine of the lowest sun.
+    lowest_mu_sun: f32,
 }
 
-/// Radius (m), altitude of the top (m) and density profiles: what columns follow from.
-type Shape = (f64, f64, [Profile; MEDIUM_COUNT]);
+impl Wanted {
+    /// From an atmosphere.
+    pub(super) fn new(model: &Model, quality: OrdersQuality) -> Result<Self, ScatteringError> {
+        let Orders { lowest_mu_sun, .. } = Orders::new(model, &quality, 1.0);
+        Ok(Self { atmosphere: Atmosphere::new(model, 1.0)?, quality, lowest_mu_sun })
+    }
+}
+
+/// The table, its uniform and what fills it.
+#[derive(Debug)]
+pub struct OrdersTable {
+    pub(super) uniform: Buffer,
+    pub(super) table: Buffer,
+    building: TableBuilding,
+    cpu: CpuBuilder,
+    gpu: GpuBuilder,
+    /// The table that a GPU is at.
+    under_way: Option<GpuBuild>,
+    holds: Option<Wanted>,
+    progress: TableProgress,
+    /// Counts the tables shown.
+    version: u64,
+}
 
 impl OrdersTable {
     /// Pipelines and an empty table.
@@ -61,44 +73,147 @@ impl OrdersTable {
     /// # Errors
     /// When a shader is wrong or memory does not suffice.
     pub fn new(gpu: &Gpu) -> Result<Self, RenderError> {
-        let pipeline = |name: &str, constants: &[(&str, f64)]| {
-            ComputePipeline::new(gpu, &Shader::load(gpu, &format!("sky/{name}.wgsl"))?, name, constants)
-        };
-        let uniform =
-            |label, bytes: usize| gpu.buffer(label, bytes as u64, BufferUsages::UNIFORM | BufferUsages::COPY_DST);
+        let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         Ok(Self {
-            first: pipeline("orders_first", &[])?,
-            next: pipeline("orders_next", &[])?,
-            sum: pipeline("orders_sum", &[])?,
-            tail: pipeline("orders_sum", &[("ORDERS_TAIL", 1.0)])?,
-            atmosphere: uniform("atmosphere of the orders", size_of::<Atmosphere>())?,
-            uniform: uniform("orders", size_of::<Orders>())?,
+            uniform: gpu.buffer("orders", size_of::<Orders>() as u64, usage)?,
             table: table(gpu, SPECTRUM_BYTES)?,
+            building: TableBuilding::Blocking,
+            cpu: CpuBuilder::default(),
+            gpu: GpuBuilder::new(gpu)?,
+            under_way: None,
             holds: None,
-            columns: None,
+            progress: TableProgress::default(),
+            version: 0,
         })
     }
 
-    /// Brings the table up to date; `columns` must be those of the atmosphere, filled by an earlier submission.
+    /// Chooses when tables are made; those under way are dropped.
+    pub fn set_building(&mut self, building: TableBuilding) {
+        self.building = building;
+        self.under_way = None;
+        self.cpu.outdate();
+    }
+
+    /// How the table stands since the last update.
+    #[must_use]
+    pub fn progress(&self) -> TableProgress {
+        self.progress
+    }
+
+    /// Counts the tables shown: what was made from the table is out of date when this number has changed.
+    pub(super) fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Brings the table up to date or closer to it; `columns` must be those of the atmosphere, filled by an earlier
+    /// submission.
     ///
     /// # Errors
     /// When memory does not suffice, the device is lost, or the atmosphere does not have eight wavelengths.
     pub fn update(&mut self, gpu: &Gpu, columns: &Texture, request: &OrdersRequest<'_>) -> Result<(), RenderError> {
-        let (quality, brightness) =
-            request.quality.map_or((OrdersQuality::preview(), 0.0), |q| (q, request.brightness));
-        self.upload(gpu, request.model, &quality, brightness);
-        let wanted = (Atmosphere::new(request.model, 1.0)?, quality);
-        if request.quality.is_none() || self.holds == Some(wanted) {
+        let Some(quality) = request.quality else {
+            (self.progress.building, self.progress.needs_frame) = (false, false);
+            self.upload(gpu, request.model, &OrdersQuality::preview(), 0.0);
+            return Ok(());
+        };
+        let wanted = Wanted::new(request.model, quality)?;
+        match self.building.clone() {
+            TableBuilding::Background(wake) if self.holds.is_some() => {
+                self.advance(gpu, columns, (request.model, &wanted), &wake)?;
+            }
+            _ => self.fill(gpu, columns, request.model, &wanted)?,
+        }
+        self.upload_held(gpu, request, &wanted);
+        Ok(())
+    }
+
+    /// Makes the table at once, unless it is there.
+    fn fill(&mut self, gpu: &Gpu, columns: &Texture, model: &Model, wanted: &Wanted) -> Result<(), RenderError> {
+        self.progress = TableProgress { last_ms: self.progress.last_ms, ..TableProgress::default() };
+        if self.holds.as_ref() == Some(wanted) {
             return Ok(());
         }
-        self.holds = None;
+        self.invalidate();
         if gpu.adapter().is_software {
-            self.fill_on_cpu(gpu, request.model, &quality)?;
+            self.fill_on_cpu(gpu, model, &wanted.quality)
         } else {
-            self.fill_on_gpu(gpu, columns, request.model, &quality)?;
+            self.fill_on_gpu(gpu, columns, model, &wanted.quality)
         }
-        self.holds = Some(wanted);
+    }
+
+    /// Takes in what has been made meanwhile and sees to what is still missing.
+    fn advance(
+        &mut self,
+        gpu: &Gpu,
+        columns: &Texture,
+        (model, wanted): (&Model, &Wanted),
+        wake: &Wake,
+    ) -> Result<(), RenderError> {
+        if gpu.adapter().is_software {
+            if let Some(finished) = self.cpu.take() {
+                self.show(gpu, finished)?;
+            }
+            if self.holds.as_ref() != Some(wanted) {
+                self.cpu.request(model, wanted, wake);
+            }
+        } else {
+            self.advance_gpu(gpu, columns, (model, wanted))?;
+        }
+        self.progress.building = self.holds.as_ref() != Some(wanted);
+        self.progress.needs_frame = self.progress.building && self.under_way.is_some();
+        self.progress.done = self.under_way.as_ref().map(GpuBuild::done);
         Ok(())
+    }
+
+    /// Submits some rows of the table under way, or of the one that is missing.
+    fn advance_gpu(
+        &mut self,
+        gpu: &Gpu,
+        columns: &Texture,
+        (model, wanted): (&Model, &Wanted),
+    ) -> Result<(), RenderError> {
+        let mut build = match self.under_way.take() {
+            Some(build) => build,
+            None if self.holds.as_ref() == Some(wanted) => return Ok(()),
+            None => GpuBuild::new(gpu, columns, model, wanted)?,
+        };
+        for _row in 0..ROWS_PER_FRAME {
+            if build.step(gpu, &self.gpu)? {
+                self.show_gpu(build);
+                return Ok(());
+            }
+        }
+        self.under_way = Some(build);
+        Ok(())
+    }
+
+    /// Uploads a table of the CPU.
+    fn show(&mut self, gpu: &Gpu, Finished { wanted, values, ms }: Finished) -> Result<(), RenderError> {
+        self.table = table(gpu, values.len() * SPECTRUM_BYTES)?;
+        gpu.queue.write_buffer(&self.table, 0, bytemuck::cast_slice(&values));
+        self.hold(wanted, ms);
+        Ok(())
+    }
+
+    fn show_gpu(&mut self, build: GpuBuild) {
+        let wanted = build.wanted.clone();
+        let (table, ms) = build.finish();
+        self.table = table;
+        self.hold(wanted, ms);
+    }
+
+    fn hold(&mut self, wanted: Wanted, ms: f64) {
+        self.holds = Some(wanted);
+        self.progress.last_ms = Some(ms);
+        self.version += 1;
+    }
+
+    /// Uploads the uniform of the table that is shown: its sizes, with the coefficients of the medium of the frame.
+    fn upload_held(&self, gpu: &Gpu, request: &OrdersRequest<'_>, wanted: &Wanted) {
+        let held = self.holds.as_ref().unwrap_or(wanted);
+        let mut uniform = Orders::new(request.model, &held.quality, request.brightness);
+        uniform.lowest_mu_sun = held.lowest_mu_sun;
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
     }
 
     /// Uploads the uniform that all passes read.
@@ -109,6 +224,8 @@ impl OrdersTable {
     /// Forgets what the table holds.
     pub fn invalidate(&mut self) {
         self.holds = None;
+        self.under_way = None;
+        self.cpu.outdate();
     }
 
     /// The table, for tests: two vectors per harmonic, as in `shaders/sky/orders.wgsl`.
@@ -122,26 +239,11 @@ impl OrdersTable {
     /// # Errors
     /// When memory does not suffice or the atmosphere does not have eight wavelengths.
     pub fn fill_on_cpu(&mut self, gpu: &Gpu, model: &Model, quality: &OrdersQuality) -> Result<(), RenderError> {
-        let marcher = self.marcher(model)?;
-        let source = SourceTable::new(&marcher, quality);
-        let values: Vec<[f32; 8]> =
-            source.field().harmonics.iter().copied().chain(source.irradiance_beyond_first_nodes()).collect();
-        self.table = table(gpu, values.len() * SPECTRUM_BYTES)?;
-        gpu.queue.write_buffer(&self.table, 0, bytemuck::cast_slice(&values));
-        Ok(())
+        let finished = self.cpu.build(model, &Wanted::new(model, *quality)?)?;
+        self.show(gpu, finished)
     }
 
-    /// The march of an atmosphere. Its columns do not depend on how much of each medium there is: they are kept while the
-    /// profiles stay the same.
-    fn marcher(&mut self, model: &Model) -> Result<Marcher, RenderError> {
-        let shape = (model.planet_radius_m, model.top_altitude_m, model.media.each_ref().map(|medium| medium.profile));
-        let kept = self.columns.take().filter(|(of, _)| *of == shape);
-        let (_, columns) = self.columns.insert(kept.unwrap_or_else(|| (shape, ColumnTable::new(model))));
-        let (atmosphere, coefficients) = (model.clone(), model.coefficients()?);
-        Ok(Marcher { atmosphere, coefficients, columns: columns.clone(), panels: CPU_PANELS })
-    }
-
-    /// Fills the table with the shaders, in submissions of its own. [`OrdersTable::upload`] comes first.
+    /// Fills the table with the shaders, in submissions of its own.
     ///
     /// # Errors
     /// When memory does not suffice or the device is lost.
@@ -152,112 +254,15 @@ impl OrdersTable {
         model: &Model,
         quality: &OrdersQuality,
     ) -> Result<(), RenderError> {
-        gpu.queue.write_buffer(&self.atmosphere, 0, bytemuck::bytes_of(&Atmosphere::new(model, 1.0)?));
-        let harmonics = quality.suns() * quality.altitudes * harmonic_count(quality.degree);
-        let bytes = (harmonics + quality.suns()) * SPECTRUM_BYTES;
-        let (mut last, mut before) = (table(gpu, bytes)?, table(gpu, bytes)?);
-        self.table = table(gpu, bytes)?;
-        let suns = SunRows::new(gpu, quality)?;
-
-        suns.submit(gpu, &self.first, &self.bindings(&[("column_table", columns.as_binding()), target(&last)]))?;
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("order 1") });
-        // The irradiance of the first order has a table of its own.
-        encoder.copy_buffer_to_buffer(&last, 0, &self.table, 0, (harmonics * SPECTRUM_BYTES) as u64);
-        gpu.queue.submit([encoder.finish()]);
-        for order in 2..=quality.orders.max(2) {
-            std::mem::swap(&mut last, &mut before);
-            let source = ("orders_source", before.as_entire_binding());
-            suns.submit(gpu, &self.next, &self.bindings(&[source, target(&last)]))?;
-            let pipeline = if order >= quality.orders { &self.tail } else { &self.sum };
-            self.submit_sum(gpu, pipeline, (&before, &last), quality)?;
-        }
-        Ok(())
-    }
-
-    fn bindings<'a>(
-        &'a self,
-        more: &[(&'static str, wgpu::BindingResource<'a>)],
-    ) -> Vec<(&'static str, wgpu::BindingResource<'a>)> {
-        let common =
-            [("atmosphere", self.atmosphere.as_entire_binding()), ("orders", self.uniform.as_entire_binding())];
-        common.into_iter().chain(more.iter().cloned()).collect()
-    }
-
-    fn submit_sum(
-        &self,
-        gpu: &Gpu,
-        pipeline: &ComputePipeline,
-        (before, last): (&Buffer, &Buffer),
-        quality: &OrdersQuality,
-    ) -> Result<(), RenderError> {
-        let resources = [
-            ("orders", self.uniform.as_entire_binding()),
-            ("orders_before", before.as_entire_binding()),
-            ("orders_last", last.as_entire_binding()),
-            ("orders_total", self.table.as_entire_binding()),
-        ];
-        let bindings = pipeline.bind(gpu, 0, &resources)?;
-        let nodes = small(quality.suns() * (quality.altitudes + 1));
-        submit(gpu, pipeline, &bindings, [nodes, 1, 1]);
+        let mut build = GpuBuild::new(gpu, columns, model, &Wanted::new(model, *quality)?)?;
+        while !build.step(gpu, &self.gpu)? {}
+        self.show_gpu(build);
         Ok(())
     }
 }
 
-/// The suns of the table in rows of [`SUNS_PER_SUBMISSION`].
-struct SunRows {
-    altitudes: u32,
-    /// The first sun of each row, for the shaders, and the number of suns in it.
-    rows: Vec<(Buffer, u32)>,
-}
-
-impl SunRows {
-    fn new(gpu: &Gpu, quality: &OrdersQuality) -> Result<Self, RenderError> {
-        let suns = small(quality.suns());
-        let firsts = (0..suns).step_by(SUNS_PER_SUBMISSION as usize);
-        let row = |first: u32| {
-            let buffer = gpu.uniform("first sun", &[first, 0, 0, 0])?;
-            Ok((buffer, SUNS_PER_SUBMISSION.min(suns - first)))
-        };
-        Ok(Self { altitudes: small(quality.altitudes), rows: firsts.map(row).collect::<Result<_, RenderError>>()? })
-    }
-
-    /// Runs a workgroup for each altitude and sun, a submission for each row.
-    fn submit(
-        &self,
-        gpu: &Gpu,
-        pipeline: &ComputePipeline,
-        resources: &[(&str, wgpu::BindingResource<'_>)],
-    ) -> Result<(), RenderError> {
-        let threads = pipeline.workgroup_size()[0];
-        for (first, count) in &self.rows {
-            let mut resources = resources.to_vec();
-            resources.push(("orders_first_sun", first.as_entire_binding()));
-            let bindings = pipeline.bind(gpu, 0, &resources)?;
-            submit(gpu, pipeline, &bindings, [self.altitudes * threads, *count, 1]);
-        }
-        Ok(())
-    }
-}
-
-fn target(buffer: &Buffer) -> (&'static str, wgpu::BindingResource<'_>) {
-    ("orders_target", buffer.as_entire_binding())
-}
-
-fn table(gpu: &Gpu, bytes: usize) -> Result<Buffer, RenderError> {
+/// An empty table.
+pub(super) fn table(gpu: &Gpu, bytes: usize) -> Result<Buffer, RenderError> {
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
     Ok(gpu.buffer("orders table", bytes as u64, usage)?)
-}
-
-fn submit(gpu: &Gpu, pipeline: &ComputePipeline, bindings: &wgpu::BindGroup, invocations: [u32; 3]) {
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("orders") });
-    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-    pass.set_bind_group(0, bindings, &[]);
-    pipeline.dispatch(&mut pass, invocations);
-    drop(pass);
-    gpu.queue.submit([encoder.finish()]);
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "sizes of tables")]
-fn small(count: usize) -> u32 {
-    count as u32
 }

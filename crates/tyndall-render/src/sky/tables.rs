@@ -8,6 +8,7 @@ use tyndall_scattering::irradiance_table::IRRADIANCE_TABLE_SIZE;
 use tyndall_scattering::orders::OrdersQuality;
 use tyndall_scene::Scene;
 
+use super::building::TableBuilding;
 use super::gpu_data::{Atmosphere, SkyView};
 use super::night::Night;
 use super::orders::{OrdersRequest, OrdersTable};
@@ -34,6 +35,8 @@ pub struct SkyTables {
     pub(super) sky_view_diffuse: Texture,
     pub(super) night: Night,
     filled_for: Option<(Inputs, [u32; 8])>,
+    /// The orders table that the others were filled from.
+    filled_from: u64,
 }
 
 impl SkyTables {
@@ -62,6 +65,7 @@ impl SkyTables {
             sky_view_diffuse: table(gpu, "sky-view table, diffuse", [8, 8])?,
             night: Night::new(gpu)?,
             filled_for: None,
+            filled_from: 0,
         })
     }
 
@@ -86,23 +90,26 @@ impl SkyTables {
         gpu.queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         let key = view.table_key();
         let inputs = (atmosphere, orders.quality);
-        let same_inputs = self.filled_for.is_some_and(|(filled, _)| filled == inputs);
-        if same_inputs && self.filled_for.is_some_and(|(_, filled)| filled == key) {
-            return Ok(());
-        }
-        self.filled_for = None;
+        let filled = self.filled_for.take();
+        let same_inputs = filled.is_some_and(|(filled, _)| filled == inputs);
         if !same_inputs {
             // Submitted apart from the frame: the orders need the columns, in submissions of their own.
             let mut first =
                 gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("columns") });
             self.record_columns(gpu, &mut first, timer)?;
             gpu.queue.submit([first.finish()]);
-            self.orders.update(gpu, &self.columns, orders)?;
+        }
+        self.orders.update(gpu, &self.columns, orders)?;
+        let same_orders = self.filled_from == self.orders.version();
+        if !(same_inputs && same_orders) {
             self.record_irradiance(gpu, encoder, timer)?;
         }
-        self.resize(gpu, &view)?;
-        self.record_sky_view(gpu, encoder, timer)?;
+        if !(same_orders && filled == Some((inputs, key))) {
+            self.resize(gpu, &view)?;
+            self.record_sky_view(gpu, encoder, timer)?;
+        }
         self.filled_for = Some((inputs, key));
+        self.filled_from = self.orders.version();
         Ok(())
     }
 
@@ -231,10 +238,15 @@ impl SkyTables {
         &self.sky_view_diffuse
     }
 
-    /// The table of diffuse light of all orders, for tests.
+    /// The table of diffuse light of all orders.
     #[must_use]
     pub fn orders(&self) -> &OrdersTable {
         &self.orders
+    }
+
+    /// Chooses when the slow table of all orders is made.
+    pub fn set_building(&mut self, building: TableBuilding) {
+        self.orders.set_building(building);
     }
 }
 

@@ -1,0 +1,84 @@
+//! Tables that are made beside the frames end up as those that frames wait for.
+
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use tyndall_render::sky::{TableBuilding, Wake};
+use tyndall_scene::Scene;
+
+use crate::render::{Studio, scene};
+
+const SIZE: [u32; 2] = [48, 32];
+
+/// Longest time that a table may take on a busy computer.
+const PATIENCE: Duration = Duration::from_mins(2);
+
+/// A renderer that does not wait, and what it calls when a table is there.
+fn impatient() -> (Studio, Receiver<()>) {
+    let mut studio = Studio::new();
+    let (sender, woken) = channel();
+    let wake = Wake::new(move || sender.send(()).unwrap_or_default());
+    studio.renderer.set_table_building(TableBuilding::Background(wake));
+    (studio, woken)
+}
+
+fn picture(studio: &mut Studio, scene: &Scene) -> Vec<[u8; 4]> {
+    studio.shoot(scene, SIZE).read_picture8(studio.gpu).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Draws until the table is that of the scene, as the app does.
+fn settled(studio: &mut Studio, woken: &Receiver<()>, scene: &Scene) -> Vec<[u8; 4]> {
+    loop {
+        let shown = picture(studio, scene);
+        let progress = studio.renderer.table_progress();
+        if !progress.building {
+            return shown;
+        }
+        if !progress.needs_frame {
+            woken.recv_timeout(PATIENCE).expect("a table in time");
+        }
+    }
+}
+
+fn coarse(aerosol: &str) -> Scene {
+    scene("low-sun", &[("sky.orders_detail", "preview"), ("atmosphere.aerosol_optical_depth", aerosol)])
+}
+
+#[test]
+fn a_table_made_beside_the_frames_gives_the_bytes_of_one_that_was_waited_for() {
+    let (mut studio, woken) = impatient();
+    let (clear, hazy) = (coarse("0.05"), coarse("0.6"));
+    let first = picture(&mut studio, &clear);
+    assert!(!studio.renderer.table_progress().building, "the first table is waited for");
+    assert!(first == picture(&mut Studio::new(), &clear), "the first picture");
+
+    let meanwhile = picture(&mut studio, &hazy);
+    assert!(studio.renderer.table_progress().building, "the frame has not waited");
+    let last = settled(&mut studio, &woken, &hazy);
+    assert!(last == picture(&mut Studio::new(), &hazy), "the picture at rest");
+    assert!(meanwhile != first, "the frame between shows the new air already");
+    assert!(studio.renderer.table_progress().last_ms.is_some_and(|ms| ms > 0.0), "the time is told");
+}
+
+#[test]
+fn the_last_of_many_changes_is_the_one_that_stays() {
+    let (mut studio, woken) = impatient();
+    for aerosol in ["0.05", "0.1", "0.2", "0.3"] {
+        picture(&mut studio, &coarse(aerosol));
+    }
+    let last = coarse("0.4");
+    let shown = settled(&mut studio, &woken, &last);
+    assert!(shown == picture(&mut Studio::new(), &last), "the picture at rest is that of the last change");
+}
+
+#[test]
+fn a_change_of_mind_back_to_single_scattering_leaves_nothing_to_wait_for() {
+    let (mut studio, _woken) = impatient();
+    picture(&mut studio, &coarse("0.05"));
+    picture(&mut studio, &coarse("0.5"));
+    let mut single = coarse("0.5");
+    single.set_text("sky.orders", "single").expect("a valid choice");
+    let shown = picture(&mut studio, &single);
+    assert!(!studio.renderer.table_progress().building, "no table is needed");
+    assert!(shown == picture(&mut Studio::new(), &single), "light that was scattered once");
+}
