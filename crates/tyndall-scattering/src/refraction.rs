@@ -11,6 +11,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use rayon::prelude::*;
+
 use crate::sky_view_map::horizon_elevation;
 
 /// Refractive index of air above one at [`REFERENCE_PRESSURE_HPA`] and [`REFERENCE_TEMPERATURE_K`], 574 nm (Ciddor 1996).
@@ -117,8 +119,8 @@ impl RefractiveAir {
 
     /// A step in which neither altitude nor direction change by much (m).
     fn step_m(&self, light: &Light) -> f64 {
-        let fine_m = 500.0 * self.stretch + 0.05 * light.altitude_m.abs();
-        let flat_m = 12_000.0 * self.stretch.min(1.0) + 0.1 * light.altitude_m.abs();
+        let fine_m = 200.0 * self.stretch + 0.02 * light.altitude_m.abs();
+        let flat_m = 4000.0 * self.stretch.min(1.0) + 0.05 * light.altitude_m.abs();
         (fine_m / light.elevation.sin().abs().max(1e-9)).min(flat_m)
     }
 
@@ -172,7 +174,7 @@ impl RefractionTable {
             let share = index as f64 / (REFRACTION_NODES - 1) as f64;
             air.bending(h_m, horizon_elevation + (FRAC_PI_2 - horizon_elevation) * share * share)
         };
-        Self { horizon_elevation, nodes: (0..REFRACTION_NODES).map(node).collect() }
+        Self { horizon_elevation, nodes: (0..REFRACTION_NODES).into_par_iter().map(node).collect() }
     }
 
     /// The table of air that does not bend.
@@ -304,8 +306,9 @@ mod tests {
             for step in 1..200 {
                 let elevation = low + (FRAC_PI_2 - low) * (f64::from(step) / 200.0).powi(3);
                 let error = (table.lookup(elevation) - air.bending(h_m, elevation)).abs();
-                // A hundredth of the sun's disc; worst from space, where the bending falls by e in a fifth of a degree.
-                assert!(error < 0.3 * ARC_MINUTE, "{h_m} m, {elevation}: {} '", error / ARC_MINUTE);
+                // From space a ray whose lowest point is the tropopause has a kink: a sixtieth of the sun's disc.
+                let allowed = if h_m > 1e5 { 0.5 } else { 0.1 };
+                assert!(error < allowed * ARC_MINUTE, "{h_m} m, {elevation}: {} '", error / ARC_MINUTE);
             }
         }
     }
