@@ -1,4 +1,5 @@
-// The camera of a frame. Image-plane coordinates: (0, 0) in the centre, x right, y up, +-1 at the edges.
+// The camera of a frame. Image-plane coordinates: (0, 0) in the centre, x right, y up, +-1 at the edges. A panorama is
+// equirectangular: x is the angle from forward towards right in half turns, y the elevation above them in right angles.
 // Uniform twin: tyndall_render::frame::gpu_data::Frame.
 
 struct Frame {
@@ -19,10 +20,13 @@ struct Frame {
     levels: f32,               // steps of the output per unit: 255, or 65535
     contrast: f32,             // 1, exponent on the display value
     saturation: f32,           // 1, factor on the distance from grey
-    padding0: f32,
-    padding1: f32,
+    projection: u32,           // 0 perspective, 1 equirectangular
+    padding: u32,
 }
 @group(1) @binding(0) var<uniform> frame: Frame;
+
+const FRAME_EQUIRECTANGULAR: u32 = 1u;
+const FRAME_PI: f32 = 3.1415926535;
 
 /// A triangle that covers the screen.
 fn frame_triangle(index: u32) -> vec4<f32> {
@@ -42,11 +46,42 @@ fn frame_pixel_size() -> vec2<f32> {
 
 /// World direction of a point of the image plane.
 fn frame_direction(plane: vec2<f32>) -> vec3<f32> {
+    if (frame.projection == FRAME_EQUIRECTANGULAR) {
+        let turn = FRAME_PI * plane.x;
+        let elevation = 0.5 * FRAME_PI * plane.y;
+        return cos(elevation) * (cos(turn) * frame.forward + sin(turn) * frame.right) + sin(elevation) * frame.up;
+    }
     return normalize(frame.forward + plane.x * frame.tan_half_width * frame.right + plane.y * frame.tan_half_height * frame.up);
 }
 
-/// Largest angle that the pixel at a point of the image plane covers [rad]: its diagonal at the centre, where pixels are
-/// widest.
+/// Largest width and height (rad) of the pixel at a point of the image plane; of a perspective those at the centre, where
+/// pixels are widest.
+fn frame_pixel_extent(plane: vec2<f32>) -> vec2<f32> {
+    let size = frame_pixel_size();
+    if (frame.projection == FRAME_EQUIRECTANGULAR) {
+        // The pixel is widest at its edge towards the horizon.
+        let edge = max(abs(plane.y) - 0.5 * size.y, 0.0);
+        return FRAME_PI * size * vec2<f32>(cos(0.5 * FRAME_PI * edge), 0.5);
+    }
+    return size * vec2<f32>(frame.tan_half_width, frame.tan_half_height);
+}
+
+/// Largest angle [rad] that the pixel at a point of the image plane covers: its diagonal.
 fn frame_pixel_angle(plane: vec2<f32>) -> f32 {
-    return length(frame_pixel_size() * vec2<f32>(frame.tan_half_width, frame.tan_half_height));
+    return length(frame_pixel_extent(plane));
+}
+
+/// Solid angle of a small piece of the image plane, relative to one at the centre.
+fn frame_solid_angle(plane: vec2<f32>) -> f32 {
+    if (frame.projection == FRAME_EQUIRECTANGULAR) {
+        return cos(0.5 * FRAME_PI * plane.y);
+    }
+    let slopes = plane * vec2<f32>(frame.tan_half_width, frame.tan_half_height);
+    return pow(1.0 + dot(slopes, slopes), -1.5);
+}
+
+/// Distance that the depth buffer counts [m], of a point `t` metres away: planar, in a panorama along the ray.
+fn frame_depth_m(direction: vec3<f32>, t: f32) -> f32 {
+    let planar = select(t * dot(direction, frame.forward), t, frame.projection == FRAME_EQUIRECTANGULAR);
+    return max(planar, frame.near_m);
 }

@@ -83,6 +83,5 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     let reflected = spectrum_scale(spectrum_mul(atmosphere.ground_albedo, light), ground_pattern(frame.position_m.xy + t * direction.xy, footprint_m) / SKY_PI);
     let seen = spectrum_mul(reflected, atmosphere_transmittance(ground_view_columns(direction.z, t)));
     let radiance = atmosphere_rec709(seen) + sky_view_radiance(sky_view_angles(direction), nu);
-    let planar_m = max(t * dot(direction, frame.forward), frame.near_m);
-    return GroundFragment(vec4<f32>(radiance * frame.pre_exposure, 1.0), frame.near_m / planar_m);
+    return GroundFragment(vec4<f32>(radiance * frame.pre_exposure, 1.0), frame.near_m / frame_depth_m(direction, t));
 }

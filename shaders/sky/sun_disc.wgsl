@@ -1,4 +1,5 @@
-// The sun's disc, by area: a pixel gets the mean over a grid of samples, so that the disc's energy is right at any size.
+// The sun's disc, by area: a pixel gets the mean over a grid of samples, each with its solid angle, so that the disc's
+// energy is right at any size and in any projection.
 // Distances on the disc are chords, because acos is off by 3 % of the sun's radius on some adapters.
 // Formulas: tyndall_scattering::sun_disc.
 // @import frame/frame.wgsl
@@ -6,20 +7,20 @@
 // @import sky/refraction.wgsl
 // @import sky/view.wgsl
 
-const SUN_SAMPLES_MAX: u32 = 32u;
-const SUN_SAMPLES_ACROSS_DISC: f32 = 96.0;
+const SUN_SAMPLES_MAX: u32 = 64u;
+const SUN_SAMPLES_ACROSS_DISC: f32 = 136.0;
 
-/// Columns [m] from the observer to the top of the atmosphere in a direction that misses the ground.
-fn sun_columns(direction: vec3<f32>) -> vec3<f32> {
+/// Columns [m] from the observer to the top of the atmosphere at a zenith cosine that misses the ground.
+fn sun_columns(mu_view: f32) -> vec3<f32> {
     let radius = atmosphere.planet_radius_m;
     let top = atmosphere.top_altitude_m;
     let h = sky_view.observer_altitude_m;
-    let entry = sky_entry_distance(direction.z);
+    let entry = sky_entry_distance(mu_view);
     if (entry < 0.0) {
         return vec3<f32>(0.0);
     }
     let inside = min(h, top);
-    let mu = select(mu_along(radius, h, direction.z, 1.0, entry, top), direction.z, entry == 0.0);
+    let mu = select(mu_along(radius, h, mu_view, 1.0, entry, top), mu_view, entry == 0.0);
     return columns_to_top(inside, max(mu, horizon_mu(radius, inside)));
 }
 
@@ -43,23 +44,33 @@ fn sun_disc_radiance(plane: vec2<f32>) -> vec3<f32> {
     if (sky_view.sun_visible == 0u || distance(refraction_true(centre), sky_view.sun_direction) > reach) {
         return vec3<f32>(0.0);
     }
-    let samples = clamp(u32(ceil(SUN_SAMPLES_ACROSS_DISC * pixel / (2.0 * radius))), 2u, SUN_SAMPLES_MAX);
+    // Pixels at the poles of a panorama are narrow: fewer samples across.
+    let across = SUN_SAMPLES_ACROSS_DISC * frame_pixel_extent(plane) / (2.0 * radius);
+    let samples = clamp(vec2<u32>(ceil(across)), vec2<u32>(2u), vec2<u32>(SUN_SAMPLES_MAX));
     let chord = 2.0 * sin(0.5 * radius);
     var sum = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
-    for (var y = 0u; y < samples; y++) { // loops: SUN_SAMPLES_MAX
-        for (var x = 0u; x < samples; x++) { // loops: SUN_SAMPLES_MAX
-            let offset = (vec2<f32>(f32(x), f32(y)) + 0.5) / f32(samples) - 0.5;
-            let direction = frame_direction(plane + offset * frame_pixel_size());
+    var weights = 0.0;
+    // Weight of the samples on the disc, and their zenith cosines: where in the pixel the air is to be looked through.
+    var on_disc = vec2<f32>(1e-20, 1e-20 * centre.z);
+    for (var y = 0u; y < samples.y; y++) { // loops: SUN_SAMPLES_MAX
+        for (var x = 0u; x < samples.x; x++) { // loops: SUN_SAMPLES_MAX
+            let offset = (vec2<f32>(f32(x), f32(y)) + 0.5) / vec2<f32>(samples) - 0.5;
+            let point = plane + offset * frame_pixel_size();
+            let direction = frame_direction(point);
             let apart = refraction_true(direction) - sky_view.sun_direction;
             let above = direction.z >= sin(sky_view.horizon_elevation);
             let share_squared = select(1.0, dot(apart, apart) / (chord * chord), above);
-            sum = spectrum_add(sum, sun_limb(share_squared));
+            let weight = frame_solid_angle(point);
+            sum = spectrum_add(sum, spectrum_scale(sun_limb(share_squared), weight));
+            weights += weight;
+            on_disc += select(vec2<f32>(0.0), weight * vec2<f32>(1.0, direction.z), share_squared < 1.0);
         }
     }
     // Irradiance to central radiance: (a + 2) / (2 pi sin^2 r).
     let normal = spectrum_add(sky_view.limb_exponents, Spectrum(vec4<f32>(2.0), vec4<f32>(2.0)));
     let sine = sin(radius);
-    let scale = 1.0 / (2.0 * SKY_PI * sine * sine * f32(samples * samples));
-    let light = spectrum_mul(spectrum_mul(sum, normal), spectrum_mul(atmosphere.solar_irradiance, atmosphere_transmittance(sun_columns(centre))));
+    let scale = 1.0 / (2.0 * SKY_PI * sine * sine * weights);
+    let transmittance = atmosphere_transmittance(sun_columns(on_disc.y / on_disc.x));
+    let light = spectrum_mul(spectrum_mul(sum, normal), spectrum_mul(atmosphere.solar_irradiance, transmittance));
     return atmosphere_rec709(spectrum_scale(light, scale));
 }

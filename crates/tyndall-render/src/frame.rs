@@ -1,10 +1,10 @@
 //! The camera and film of a frame as the shaders see them. WGSL: `shaders/frame/frame.wgsl`.
 
-use tyndall_scene::camera::{CameraFrame, NEAR_M};
+use tyndall_scene::camera::NEAR_M;
 use tyndall_scene::{ExposureMode, Scene, ToneMap};
 
 use crate::exposure::{expected_ev100, gain_from_ev100};
-use crate::{PictureFormat, RenderError};
+use crate::{PictureFormat, RenderError, View};
 
 /// Uniform structs of this file.
 pub mod gpu_data {
@@ -30,18 +30,23 @@ pub mod gpu_data {
         pub levels: f32,
         pub contrast: f32,
         pub saturation: f32,
-        pub padding0: f32,
-        pub padding1: f32,
+        pub projection: u32,
+        pub padding: u32,
     }
 }
 
-/// The uniform of a scene's camera and film.
+/// The uniform of a view of a scene, and of its film.
 ///
 /// # Errors
 /// When the scene has no sun position.
 #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
-pub fn frame_uniform(scene: &Scene, size_px: [u32; 2], picture: PictureFormat) -> Result<gpu_data::Frame, RenderError> {
-    let camera = CameraFrame::new(&scene.camera);
+pub fn frame_uniform(
+    scene: &Scene,
+    view: View,
+    size_px: [u32; 2],
+    picture: PictureFormat,
+) -> Result<gpu_data::Frame, RenderError> {
+    let camera = view.frame(&scene.camera);
     let film = &scene.film;
     let expected_ev100 = expected_ev100(film, scene.sun_direction()?.elevation_rad);
     let compensation = film.compensation_ev.exp2();
@@ -71,7 +76,7 @@ pub fn frame_uniform(scene: &Scene, size_px: [u32; 2], picture: PictureFormat) -
         },
         contrast: film.contrast as f32,
         saturation: film.saturation as f32,
-        padding0: 0.0,
-        padding1: 0.0,
+        projection: u32::from(view == View::Panorama),
+        padding: 0,
     })
 }

@@ -20,7 +20,9 @@ mod renderer;
 pub mod sky;
 mod target;
 pub mod tone;
+mod view;
 
 pub use error::RenderError;
 pub use renderer::Renderer;
 pub use target::{FrameFormat, FrameTarget, PictureFormat, RendererConfig, SKY_DEPTH_M};
+pub use view::{CubeFace, View};

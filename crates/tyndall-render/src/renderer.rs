@@ -12,7 +12,7 @@ use crate::exposure::ev100_from_gain;
 use crate::frame::{frame_uniform, gpu_data};
 use crate::sky::gpu_data::{Atmosphere as AtmosphereUniform, SkyView};
 use crate::sky::{OrdersRequest, SkyRenderer, SkyTables, TableBuilding, TableProgress};
-use crate::{FrameTarget, RenderError, RendererConfig};
+use crate::{FrameTarget, RenderError, RendererConfig, View};
 
 /// Passes that a frame can have: five tables, scene, meter, development.
 const TIMED_PASSES: u32 = 8;
@@ -47,7 +47,7 @@ impl Renderer {
         })
     }
 
-    /// Records and submits one frame. Tables are rebuilt only when their inputs changed.
+    /// Records and submits one frame of the scene's camera. Tables are rebuilt only when their inputs changed.
     ///
     /// # Errors
     /// When the scene's values do not fit together, the target belongs to another configuration, memory does not
@@ -58,11 +58,26 @@ impl Renderer {
         scene: &Scene,
         target: &mut FrameTarget,
     ) -> Result<wgpu::SubmissionIndex, RenderError> {
+        self.render_view(gpu, scene, View::Camera, target)
+    }
+
+    /// Records and submits one frame of a view from the place of the scene's camera. A panorama is not developed: its
+    /// target's picture stays as it was.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn render_view(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        view: View,
+        target: &mut FrameTarget,
+    ) -> Result<wgpu::SubmissionIndex, RenderError> {
         if target.config != self.config {
             return Err(RenderError::Configuration { target: target.config, renderer: self.config });
         }
         scene.check()?;
-        let frame = frame_uniform(scene, target.size_px(), self.config.picture)?;
+        let frame = frame_uniform(scene, view, target.size_px(), self.config.picture)?;
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
         self.pre_exposure = frame.pre_exposure;
         target.pre_exposure = frame.pre_exposure;
@@ -75,8 +90,10 @@ impl Renderer {
         self.tables.update_night(gpu, scene, &model);
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
         self.record_scene(gpu, &mut encoder, scene, target)?;
-        let data = self.develop.prepare(gpu, &self.frame, target)?;
-        self.develop.record(&mut encoder, &mut self.timer, &data, target);
+        if view != View::Panorama {
+            let data = self.develop.prepare(gpu, &self.frame, target)?;
+            self.develop.record(&mut encoder, &mut self.timer, &data, target);
+        }
         self.timer.resolve(&mut encoder);
         let submission = gpu.queue.submit([encoder.finish()]);
         gpu.check()?;
