@@ -2,12 +2,14 @@
 //!
 //! - [`mod@params`]: the [`params!`] and [`choices!`] macros; one declaration feeds struct, default, range check, scene file,
 //!   command line, sliders, tooltips and documentation.
-//! - [`rng`]: Philox4x32-10, a random number as a pure function of (seed, step, cell).
+//! - [`rng`]: Philox4x32-10, a random number as a pure function of (seed, step, cell), and a cheap hash keyed by it.
 //! - [`grid`]: dense 2-D and 3-D arrays with a documented index order and linear interpolation.
+//! - [`metaball`]: the field of the balls that clouds and smoke are made of, its columns and its mass.
 //! - [`spectrum`]: the eight wavelengths of all light transport and their map to linear Rec.709.
 //! - [`units`]: conversions at the edges of the program; inside it everything is metres, seconds, radians, kelvin.
 
 pub mod grid;
+pub mod metaball;
 pub mod params;
 pub mod rng;
 pub mod spectrum;
