@@ -10,13 +10,14 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tyndall-shaders", &[]),
     ("tyndall-assets", &[]),
     ("tyndall-scattering", &["tyndall-core"]),
+    ("tyndall-clouds", &["tyndall-core"]),
     ("tyndall-io", &["tyndall-core"]),
     ("tyndall-scene", &["tyndall-core", "tyndall-scattering", "tyndall-assets"]),
     ("tyndall-gpu", &["tyndall-shaders", "tyndall-core"]),
     ("tyndall-render", &["tyndall-gpu", "tyndall-scene"]),
     ("tyndall-cli", &["tyndall-render", "tyndall-io"]),
     ("tyndall-app", &["tyndall-render", "tyndall-io"]),
-    ("tyndall", &["tyndall-render", "tyndall-io"]),
+    ("tyndall", &["tyndall-render", "tyndall-io", "tyndall-clouds"]),
     ("xtask", &[]),
 ];
 

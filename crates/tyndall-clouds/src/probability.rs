@@ -1,0 +1,67 @@
+//! Probabilities of extinction and supply, cell by cell.
+//!
+//! Section 3.2 of the paper removes cloud at random and supplies vapour (hum) and activation (act) at random. Where and how
+//! often is written as a stack of layers: each layer changes the probabilities that the layers below it left, one row of
+//! cells at a time.
+
+/// Probabilities per step of one row of cells: one value per x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbabilityRow {
+    /// That cloud of the cell vanishes.
+    pub extinction: Vec<f32>,
+    /// That the cell becomes humid.
+    pub humidity: Vec<f32>,
+    /// That the cell is activated: its vapour is about to condense.
+    pub activation: Vec<f32>,
+}
+
+impl ProbabilityRow {
+    /// All probabilities 0.
+    #[must_use]
+    pub fn zeros(nx: usize) -> Self {
+        Self { extinction: vec![0.0; nx], humidity: vec![0.0; nx], activation: vec![0.0; nx] }
+    }
+
+    /// Sets every cell to the same values.
+    pub fn fill(&mut self, values: Probabilities) {
+        self.extinction.fill(values.extinction);
+        self.humidity.fill(values.humidity);
+        self.activation.fill(values.activation);
+    }
+
+    pub(crate) fn fields(&self) -> [&[f32]; 3] {
+        [&self.extinction, &self.humidity, &self.activation]
+    }
+}
+
+/// Probabilities per step of one cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Probabilities {
+    /// That cloud of the cell vanishes.
+    pub extinction: f32,
+    /// That the cell becomes humid.
+    pub humidity: f32,
+    /// That the cell is activated.
+    pub activation: f32,
+}
+
+/// One layer of a stack of probabilities; later layers see what earlier ones left.
+///
+/// Values below 0 count as 0 and values from 1 on as always, so that a layer may scale without a test.
+pub trait ProbabilityLayer: std::fmt::Debug + Send + Sync {
+    /// Changes the probabilities of the cells (0.., y, z).
+    fn apply(&self, y: usize, z: usize, row: &mut ProbabilityRow);
+
+    /// Moves along with one step of the wind; true when probabilities changed by that.
+    fn blow(&mut self, wind: &crate::wind::Wind) -> bool {
+        let _ = wind;
+        false
+    }
+}
+
+/// The same probabilities everywhere.
+impl ProbabilityLayer for Probabilities {
+    fn apply(&self, _y: usize, _z: usize, row: &mut ProbabilityRow) {
+        row.fill(*self);
+    }
+}
