@@ -8,6 +8,8 @@ use tyndall_scattering::geometry::Ray;
 use tyndall_scattering::single_scattering::single_scattering;
 use tyndall_tests::shared_data;
 
+use crate::table::data_rows;
+
 const ATMOSPHERE: &str = include_str!("../data/atmosphere_csm8.txt");
 const ROWS: &str = include_str!("../data/single_scattering_csm8.csv");
 
@@ -21,14 +23,6 @@ const LUMINOSITY: [f64; 40] = [
     6.9490e-1, 5.4434e-1, 3.9903e-1, 2.6244e-1, 1.5965e-1, 8.7479e-2, 4.3169e-2, 2.0196e-2, 8.8462e-3, 3.9043e-3,
     1.7641e-3, 7.7993e-4, 3.3538e-4, 1.4088e-4, 6.2151e-5, 2.7522e-5, 1.2178e-5, 5.3532e-6, 2.3489e-6, 1.0303e-6,
 ];
-
-fn numbers(line: &str) -> Vec<f64> {
-    line.split(',').filter_map(|word| word.trim().parse().ok()).collect()
-}
-
-fn data_rows(text: &str) -> impl Iterator<Item = Vec<f64>> {
-    text.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())).map(numbers)
-}
 
 fn spectrum(atmosphere: &Atmosphere, row: &[f64]) -> Vec<f64> {
     let [sun, view, azimuth] = [row[0], row[1], row[2]].map(f64::to_radians);

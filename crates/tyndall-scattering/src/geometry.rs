@@ -51,6 +51,26 @@ pub fn distance_to_ground(radius_m: f64, h_m: f64, mu: f64) -> Option<f64> {
     (mu < 0.0 && discriminant >= 0.0).then(|| q / (discriminant.sqrt() - b))
 }
 
+/// The ray from where it enters the atmosphere, and the distance (m) to that point; a ray that starts inside is returned as
+/// it is, and one that misses the atmosphere is `None`.
+#[must_use]
+pub fn enter_atmosphere(radius_m: f64, top_m: f64, ray: &Ray) -> Option<(Ray, f64)> {
+    if ray.h_m <= top_m {
+        return Some((*ray, 0.0));
+    }
+    let b = (radius_m + ray.h_m) * ray.mu;
+    let q = (ray.h_m - top_m) * (2.0 * radius_m + top_m + ray.h_m);
+    let discriminant = b * b - q;
+    if ray.mu >= 0.0 || discriminant <= 0.0 {
+        return None;
+    }
+    // The nearer of the two points, without cancellation.
+    let t_m = q / (discriminant.sqrt() - b);
+    let [mu, mu_sun] = [(ray.mu, 1.0), (ray.mu_sun, ray.nu)]
+        .map(|(mu_other, nu)| mu_along(radius_m, ray.h_m, mu_other, nu, t_m, top_m));
+    Some((Ray { h_m: top_m, mu, mu_sun, nu: ray.nu }, t_m))
+}
+
 /// Zenith cosine of the geometric horizon seen from altitude `h_m`.
 #[must_use]
 pub fn horizon_mu(radius_m: f64, h_m: f64) -> f64 {
@@ -127,6 +147,20 @@ mod tests {
             assert!(distance_to_ground(RADIUS_M, h, horizon + 1e-6).is_none(), "{h}");
         }
         assert!((distance_to_ground(RADIUS_M, 2.0, -1.0).unwrap() - 2.0).abs() < 1e-9, "straight down");
+    }
+
+    #[test]
+    fn rays_from_space_enter_at_the_top_or_miss() {
+        let ray = Ray { h_m: 2e6, mu: -0.95, mu_sun: 0.3, nu: 0.1 };
+        let (entered, t_m) = enter_atmosphere(RADIUS_M, TOP_M, &ray).expect("it meets the atmosphere");
+        assert!((altitude_along(RADIUS_M, ray.h_m, ray.mu, t_m) - TOP_M).abs() < 1e-3, "{t_m}");
+        // The closest approach to the centre is the same on the way.
+        let impact = |ray: &Ray| (RADIUS_M + ray.h_m) * (1.0 - ray.mu * ray.mu).sqrt();
+        assert!((impact(&entered) - impact(&ray)).abs() < 1e-3 && entered.mu < 0.0, "{entered:?}");
+        assert!(enter_atmosphere(RADIUS_M, TOP_M, &Ray { mu: -0.8, ..ray }).is_none(), "it passes by");
+        assert!(enter_atmosphere(RADIUS_M, TOP_M, &Ray { mu: 0.5, ..ray }).is_none(), "it looks away");
+        let inside = Ray { h_m: 10.0, ..ray };
+        assert_eq!(enter_atmosphere(RADIUS_M, TOP_M, &inside), Some((inside, 0.0)), "already inside");
     }
 
     #[test]

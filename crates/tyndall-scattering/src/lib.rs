@@ -14,6 +14,8 @@
 //!
 //! The sky's light travels straight; [`refraction`] says where the sun, the moon and the stars appear.
 //!
+//! [`monte_carlo`] computes the same light by random walks, slowly and without any table, to judge everything else.
+//!
 //! Not done here: polarisation.
 
 pub mod air;
@@ -26,6 +28,7 @@ pub mod geometry;
 pub mod irradiance_table;
 pub mod march;
 pub mod medium;
+pub mod monte_carlo;
 pub mod optical_length;
 pub mod orders;
 pub mod ozone;

@@ -38,7 +38,12 @@ pub fn ray_end(atmosphere: &Atmosphere, h_m: f64, mu: f64) -> RayEnd {
 /// the atmosphere in front of it.
 #[must_use]
 pub fn single_scattering(atmosphere: &Atmosphere, ray: &Ray) -> Vec<f64> {
-    let end = ray_end(atmosphere, ray.h_m, ray.mu);
+    single_scattering_to(atmosphere, ray, ray_end(atmosphere, ray.h_m, ray.mu))
+}
+
+/// As [`single_scattering`], for a ray that ends at `end`.
+#[must_use]
+pub fn single_scattering_to(atmosphere: &Atmosphere, ray: &Ray, end: RayEnd) -> Vec<f64> {
     let parts = scattered_parts(atmosphere, ray, end.length_m);
     let ground = if end.on_ground { sunlit_ground(atmosphere, ray, end.length_m) } else { vec![0.0; parts[0].len()] };
     let phases = [AIR, AEROSOL].map(|medium| atmosphere.media[medium].phase.value(ray.nu));
