@@ -20,3 +20,8 @@ fn phase_henyey_greenstein(cos_theta: f32, g: f32) -> f32 {
     let d = 1.0 + g * g - 2.0 * g * cos_theta;
     return PHASE_INV_4PI * (1.0 - g * g) / (d * sqrt(d));
 }
+
+/// Two lobes of Henyey and Greenstein with mean cosines g.x and g.y; the first has the share forward_weight.
+fn phase_double_henyey_greenstein(cos_theta: f32, g: vec2<f32>, forward_weight: f32) -> f32 {
+    return mix(phase_henyey_greenstein(cos_theta, g.y), phase_henyey_greenstein(cos_theta, g.x), forward_weight);
+}

@@ -1,6 +1,6 @@
 // Fills the column table: paper eq. (2) without the wavelength. One texel per invocation, 2 x 24 panels of four Gauss
 // nodes. Stored are ln(column / density at the observer) for air and aerosol, and the column of ozone [m].
-// Exact integral and table in f64: tyndall_scattering::{optical_length, column_table}.
+// Haze has a closed form. Exact integral and table in f64: tyndall_scattering::{optical_length, column_table}.
 // @import sky/column_map.wgsl
 // @import sky/quadrature.wgsl
 

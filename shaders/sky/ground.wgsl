@@ -49,7 +49,7 @@ fn ground_pattern(point: vec2<f32>, footprint_m: f32) -> f32 {
 }
 
 /// Columns [m] between the observer and the ground in a direction.
-fn ground_view_columns(mu: f32, t: f32) -> vec3<f32> {
+fn ground_view_columns(mu: f32, t: f32) -> vec4<f32> {
     let radius = atmosphere.planet_radius_m;
     let h = sky_view.observer_altitude_m;
     let mu_ground = mu_along(radius, h, mu, 1.0, t, 0.0);
@@ -58,7 +58,7 @@ fn ground_view_columns(mu: f32, t: f32) -> vec3<f32> {
     if (h >= atmosphere.top_altitude_m) {
         return whole;
     }
-    return max(whole - columns_to_top(h, -mu), vec3<f32>(0.0));
+    return max(whole - columns_to_top(h, -mu), vec4<f32>(0.0));
 }
 
 @vertex

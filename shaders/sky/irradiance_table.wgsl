@@ -25,9 +25,7 @@ fn irradiance_direction(index: u32, mu_sun: f32) -> Spectrum {
     let nu = clamp(mu * mu_sun + sqrt((1.0 - mu * mu) * (1.0 - mu_sun * mu_sun)) * cos(azimuth), -1.0, 1.0);
     let length = distance_to_top(atmosphere.planet_radius_m, atmosphere.top_altitude_m, 0.0, mu);
     let light = march_scattered(Ray(0.0, mu, mu_sun, nu), length, IRRADIANCE_PANELS);
-    let phases = atmosphere_phases(nu);
-    let radiance = spectrum_add(spectrum_scale(light.air, phases.x), spectrum_scale(light.aerosol, phases.y));
-    return spectrum_scale(radiance, IRRADIANCE_PI * (high - low) / f32(IRRADIANCE_AZIMUTHS));
+    return spectrum_scale(march_radiance(light, atmosphere_phases(nu)), IRRADIANCE_PI * (high - low) / f32(IRRADIANCE_AZIMUTHS));
 }
 
 @compute @workgroup_size(64, 1, 1)

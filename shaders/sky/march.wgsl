@@ -6,17 +6,27 @@
 // @import sky/column_lookup.wgsl
 // @import sky/march_path.wgsl
 
+/// Light of a scattering medium after its phase function, summed over the media (W/m^2/sr/nm).
+fn march_radiance(light: Scattered, phases: vec3<f32>) -> Spectrum {
+    let clear = spectrum_add(spectrum_scale(light.air, phases.x), spectrum_scale(light.aerosol, phases.y));
+    return spectrum_add(clear, spectrum_scale(light.haze, phases.z));
+}
+
 struct MarchState {
-    columns: vec3<f32>, // m, from the observer to the start of the panel
+    columns: vec4<f32>, // m, from the observer to the start of the panel
     light: Scattered,
 }
 
 /// Adds what one node scatters, for a path through `columns` to the sun.
-fn march_node(light: Scattered, columns: vec3<f32>, densities: vec2<f32>) -> Scattered {
+fn march_node(light: Scattered, columns: vec4<f32>, densities: vec3<f32>) -> Scattered {
     let transmittance = atmosphere_transmittance(columns);
     let air = spectrum_scale(spectrum_mul(atmosphere.air_source, transmittance), densities.x);
     let aerosol = spectrum_scale(spectrum_mul(atmosphere.aerosol_source, transmittance), densities.y);
-    return Scattered(spectrum_add(light.air, air), spectrum_add(light.aerosol, aerosol));
+    var out = Scattered(spectrum_add(light.air, air), spectrum_add(light.aerosol, aerosol), light.haze);
+    if (atmosphere_hazy()) {
+        out.haze = spectrum_add(out.haze, spectrum_scale(spectrum_mul(atmosphere.haze_source, transmittance), densities.z));
+    }
+    return out;
 }
 
 /// One panel from x0 of a width in x.
@@ -25,17 +35,15 @@ fn march_panel(state: MarchState, ray: Ray, ends: vec2<f32>, x0: f32, width: f32
     var out = state;
     let nodes = march_nodes(ray, ends, x0, width);
     if (lit) {
-        let air_columns = quadrature_running(nodes.air);
-        let aerosol_columns = quadrature_running(nodes.aerosol);
-        let ozone_columns = quadrature_running(nodes.ozone);
+        var running = transpose(march_running(nodes));
         for (var i = 0u; i < 4u; i++) { // loops: 4
             let mu_sun = mu_along(radius, ray.h, ray.mu_sun, ray.nu, nodes.t[i], nodes.h[i]);
-            let view = state.columns + vec3<f32>(air_columns[i], aerosol_columns[i], ozone_columns[i]);
-            let densities = vec2<f32>(nodes.air[i], nodes.aerosol[i]) * QUADRATURE_WEIGHTS[i];
+            let view = state.columns + running[i];
+            let densities = vec3<f32>(nodes.air[i], nodes.aerosol[i], nodes.haze[i]) * QUADRATURE_WEIGHTS[i];
             out.light = march_node(out.light, view + columns_to_top(nodes.h[i], mu_sun), densities);
         }
     }
-    out.columns += vec3<f32>(dot(nodes.air, QUADRATURE_WEIGHTS), dot(nodes.aerosol, QUADRATURE_WEIGHTS), dot(nodes.ozone, QUADRATURE_WEIGHTS));
+    out.columns += march_columns(nodes);
     return out;
 }
 
@@ -56,8 +64,7 @@ fn march_ray(ray: Ray, length: f32, panels: u32) -> MarchState {
     // start, enter, leave, 0 and end in order, knowing enter <= leave.
     let breaks = array<f32, 5>(start, min(enter, 0.0), clamp(0.0, enter, leave), max(leave, 0.0), end);
     let roots = sqrt(vec2<f32>(lowest, length - lowest));
-    let zero = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
-    var state = MarchState(vec3<f32>(0.0), Scattered(zero, zero));
+    var state = MarchState(vec4<f32>(0.0), scattered_nothing());
     for (var piece = 0u; piece < 4u; piece++) { // loops: 4
         let low = breaks[piece];
         let high = clamp(breaks[piece + 1u], start, end);

@@ -19,6 +19,13 @@ struct Ray {
 struct Scattered {
     air: Spectrum,
     aerosol: Spectrum,
+    haze: Spectrum,
+}
+
+/// No light.
+fn scattered_nothing() -> Scattered {
+    let zero = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
+    return Scattered(zero, zero, zero);
 }
 
 /// Distance [m] at x, and its derivative [m].
@@ -34,13 +41,14 @@ fn march_variable(t: f32, lowest: f32, length: f32) -> f32 {
     return sign(from_lowest) * sqrt(min(abs(from_lowest) / side, 1.0));
 }
 
-/// The four nodes of a panel: distance and altitude (m), and density times step of the three media (m).
+/// The four nodes of a panel: distance and altitude (m), and density times step of the four media (m).
 struct MarchNodes {
     t: vec4<f32>,
     h: vec4<f32>,
     air: vec4<f32>,
     aerosol: vec4<f32>,
     ozone: vec4<f32>,
+    haze: vec4<f32>,
 }
 
 /// Nodes of the panel from x0 of a width in x; `ends` = lowest point and length (m).
@@ -55,6 +63,18 @@ fn march_nodes(ray: Ray, ends: vec2<f32>, x0: f32, width: f32) -> MarchNodes {
         nodes.air[i] = step.x;
         nodes.aerosol[i] = step.y;
         nodes.ozone[i] = step.z;
+        nodes.haze[i] = step.w;
     }
     return nodes;
+}
+
+/// Columns (m) of a panel.
+fn march_columns(nodes: MarchNodes) -> vec4<f32> {
+    let weights = QUADRATURE_WEIGHTS;
+    return vec4<f32>(dot(nodes.air, weights), dot(nodes.aerosol, weights), dot(nodes.ozone, weights), dot(nodes.haze, weights));
+}
+
+/// Columns (m) from the start of a panel to each of its nodes, a column of the matrix per medium.
+fn march_running(nodes: MarchNodes) -> mat4x4<f32> {
+    return mat4x4<f32>(quadrature_running(nodes.air), quadrature_running(nodes.aerosol), quadrature_running(nodes.ozone), quadrature_running(nodes.haze));
 }

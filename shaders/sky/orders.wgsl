@@ -6,7 +6,8 @@
 struct Orders {
     air_scattering: Spectrum,      // 1/m at density 1
     aerosol_scattering: Spectrum,  // 1/m at density 1
-    moments: array<vec4<f32>, 5>,  // 1, Legendre moments of the phase functions: x air, y aerosol
+    haze_scattering: Spectrum,     // 1/m at density 1
+    moments: array<vec4<f32>, 5>,  // 1, Legendre moments of the phase functions: x air, y aerosol, z haze
     zeniths: array<vec4<f32>, 8>,  // 1, Gauss nodes (x) and weights (y) on 0..1
     altitudes: u32,
     suns_above: u32,               // from the horizon to the zenith

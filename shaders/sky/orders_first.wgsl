@@ -8,8 +8,7 @@ fn orders_first_radiance(h: f32, mu_sun: f32, direction: OrdersDirection) -> Spe
     let ray = orders_ray(h, mu_sun, direction);
     let length = orders_length(ray, direction.above);
     let march = march_ray(ray, length, orders.panels);
-    let phases = atmosphere_phases(ray.nu);
-    let light = spectrum_add(spectrum_scale(march.light.air, phases.x), spectrum_scale(march.light.aerosol, phases.y));
+    let light = march_radiance(march.light, atmosphere_phases(ray.nu));
     let mu_ground = mu_along(atmosphere.planet_radius_m, h, mu_sun, ray.nu, length, 0.0);
     if (direction.above || mu_ground <= 0.0) {
         return light;

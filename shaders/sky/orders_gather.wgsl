@@ -4,10 +4,10 @@
 // @import sky/orders_basis.wgsl
 // @import sky/orders_source.wgsl
 
-/// Light that a ray has gathered (W/m^2/sr/nm), and the columns (m) of air, aerosol and ozone along it.
+/// Light that a ray has gathered (W/m^2/sr/nm), and the columns (m) of the media along it.
 struct OrdersGathered {
     light: Spectrum,
-    columns: vec3<f32>,
+    columns: vec4<f32>,
 }
 
 /// One harmonic between four nodes whose first vectors and weights are given.
@@ -17,7 +17,7 @@ fn orders_mix(nodes: vec4<u32>, weights: vec4<f32>, offset: u32) -> Spectrum {
     return spectrum_add(low, high);
 }
 
-/// Mean light around a point of altitude h, weighted by the phase functions of air and aerosol towards a ray with zenith
+/// Mean light around a point of altitude h, weighted by the phase functions of the media towards a ray with zenith
 /// cosine mu and cosine nu to the sun (W/m^2/sr/nm).
 fn orders_scattered(h: f32, mu: f32, mu_sun: f32, nu: f32) -> Scattered {
     let altitude = orders_altitude_place(h);
@@ -31,8 +31,7 @@ fn orders_scattered(h: f32, mu: f32, mu_sun: f32, nu: f32) -> Scattered {
     // With ray or sun in the zenith any azimuth will do: the harmonics with m > 0 vanish there.
     let sines = max(sine * sqrt(max((1.0 - mu_sun) * (1.0 + mu_sun), 0.0)), 1e-6);
     let cos_phi = clamp((nu - mu * mu_sun) / sines, -1.0, 1.0);
-    let zero = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
-    var out = Scattered(zero, zero);
+    var out = scattered_nothing();
     var azimuth = vec2<f32>(cos_phi, 1.0);
     var diagonal = 1.0;
     for (var m = 0u; m <= orders.degree; m++) { // loops: ORDERS_DEGREES
@@ -42,6 +41,9 @@ fn orders_scattered(h: f32, mu: f32, mu_sun: f32, nu: f32) -> Scattered {
             let light = orders_mix(nodes, weights * (ORDERS_NORMS[k] * legendre.y * azimuth.y), 2u * k);
             out.air = spectrum_add(out.air, spectrum_scale(light, orders.moments[l].x));
             out.aerosol = spectrum_add(out.aerosol, spectrum_scale(light, orders.moments[l].y));
+            if (atmosphere_hazy()) {
+                out.haze = spectrum_add(out.haze, spectrum_scale(light, orders.moments[l].z));
+            }
             legendre = vec2<f32>(legendre.y, orders_legendre_next(l, m, mu, legendre.x, legendre.y));
         }
         azimuth = vec2<f32>(azimuth.y, 2.0 * cos_phi * azimuth.y - azimuth.x);
@@ -55,20 +57,19 @@ fn orders_panel(state: OrdersGathered, ray: Ray, ends: vec2<f32>, x0: f32, width
     let radius = atmosphere.planet_radius_m;
     var out = state;
     let nodes = march_nodes(ray, ends, x0, width);
-    let air_columns = quadrature_running(nodes.air);
-    let aerosol_columns = quadrature_running(nodes.aerosol);
-    let ozone_columns = quadrature_running(nodes.ozone);
+    var running = transpose(march_running(nodes));
     for (var i = 0u; i < 4u; i++) { // loops: 4
         let mu = mu_along(radius, ray.h, ray.mu, 1.0, nodes.t[i], nodes.h[i]);
         let mu_sun = mu_along(radius, ray.h, ray.mu_sun, ray.nu, nodes.t[i], nodes.h[i]);
         let scattered = orders_scattered(nodes.h[i], mu, mu_sun, ray.nu);
         let air = spectrum_scale(spectrum_mul(scattered.air, orders.air_scattering), nodes.air[i]);
         let aerosol = spectrum_scale(spectrum_mul(scattered.aerosol, orders.aerosol_scattering), nodes.aerosol[i]);
-        let view = state.columns + vec3<f32>(air_columns[i], aerosol_columns[i], ozone_columns[i]);
-        let light = spectrum_mul(spectrum_add(air, aerosol), atmosphere_transmittance(view));
+        let haze = spectrum_scale(spectrum_mul(scattered.haze, orders.haze_scattering), nodes.haze[i]);
+        let source = spectrum_add(spectrum_add(air, aerosol), haze);
+        let light = spectrum_mul(source, atmosphere_transmittance(state.columns + running[i]));
         out.light = spectrum_add(out.light, spectrum_scale(light, QUADRATURE_WEIGHTS[i]));
     }
-    out.columns += vec3<f32>(dot(nodes.air, QUADRATURE_WEIGHTS), dot(nodes.aerosol, QUADRATURE_WEIGHTS), dot(nodes.ozone, QUADRATURE_WEIGHTS));
+    out.columns += march_columns(nodes);
     return out;
 }
 
@@ -76,7 +77,7 @@ fn orders_panel(state: OrdersGathered, ray: Ray, ends: vec2<f32>, x0: f32, width
 fn orders_gather(ray: Ray, length: f32, panels: u32) -> OrdersGathered {
     let lowest = clamp(-(atmosphere.planet_radius_m + ray.h) * ray.mu, 0.0, length);
     let roots = sqrt(vec2<f32>(lowest, length - lowest));
-    var state = OrdersGathered(Spectrum(vec4<f32>(0.0), vec4<f32>(0.0)), vec3<f32>(0.0));
+    var state = OrdersGathered(Spectrum(vec4<f32>(0.0), vec4<f32>(0.0)), vec4<f32>(0.0));
     for (var side = 0u; side < 2u; side++) { // loops: 2
         if (roots[side] <= 0.0) { continue; }
         let count = clamp(u32(ceil(f32(panels) * roots[side] / (roots.x + roots.y))), 1u, MARCH_PANELS_MAX);

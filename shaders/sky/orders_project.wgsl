@@ -56,7 +56,7 @@ fn orders_length(ray: Ray, above: bool) -> f32 {
 }
 
 /// Radiance of the ground behind air of these columns (m), for an irradiance (W/m^2/nm).
-fn orders_reflected(irradiance: Spectrum, columns: vec3<f32>) -> Spectrum {
+fn orders_reflected(irradiance: Spectrum, columns: vec4<f32>) -> Spectrum {
     let seen = spectrum_mul(atmosphere_transmittance(columns), spectrum_mul(atmosphere.ground_albedo, irradiance));
     return spectrum_scale(seen, 1.0 / ORDERS_PI);
 }

@@ -4,6 +4,7 @@
 @group(0) @binding(6) var sky_view_air: texture_2d<f32>;
 @group(0) @binding(7) var sky_view_aerosol: texture_2d<f32>;
 @group(0) @binding(9) var sky_view_diffuse: texture_2d<f32>;
+@group(0) @binding(15) var sky_view_haze: texture_2d<f32>; // small and dark without haze
 
 /// Elevation and azimuth from the sun, 0..pi [rad], of a direction.
 fn sky_view_angles(direction: vec3<f32>) -> vec2<f32> {
@@ -53,5 +54,9 @@ fn sky_view_radiance(angles: vec2<f32>, nu: f32) -> vec3<f32> {
     let air = mat4x3<f32>(textureLoad(sky_view_air, a, 0).xyz, textureLoad(sky_view_air, b, 0).xyz, textureLoad(sky_view_air, c, 0).xyz, textureLoad(sky_view_air, d, 0).xyz) * cell.weights;
     let aerosol = mat4x3<f32>(textureLoad(sky_view_aerosol, a, 0).xyz, textureLoad(sky_view_aerosol, b, 0).xyz, textureLoad(sky_view_aerosol, c, 0).xyz, textureLoad(sky_view_aerosol, d, 0).xyz) * cell.weights;
     let phases = atmosphere_phases(nu);
-    return air * phases.x + aerosol * phases.y + sky_view_diffuse_radiance(angles);
+    var light = air * phases.x + aerosol * phases.y + sky_view_diffuse_radiance(angles);
+    if (atmosphere_hazy()) {
+        light += phases.z * (mat4x3<f32>(textureLoad(sky_view_haze, a, 0).xyz, textureLoad(sky_view_haze, b, 0).xyz, textureLoad(sky_view_haze, c, 0).xyz, textureLoad(sky_view_haze, d, 0).xyz) * cell.weights);
+    }
+    return light;
 }

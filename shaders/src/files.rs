@@ -27,6 +27,7 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "sky/irradiance_diffuse.wgsl",
     "sky/irradiance_map.wgsl",
     "sky/irradiance_table.wgsl",
+    "sky/layer_column.wgsl",
     "sky/march.wgsl",
     "sky/march_path.wgsl",
     "sky/orders.wgsl",

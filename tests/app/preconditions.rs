@@ -80,6 +80,30 @@ pub(crate) const ALL: &[Precondition] = &[
         ],
     },
     Precondition {
+        name: "haze in front of a low sun, some air left above it",
+        prepare: |scene| {
+            manual(scene);
+            scene.film.ev100 = 12.0;
+            scene.sun.elevation_deg = 25.0;
+            scene.camera.pitch_deg = 8.0;
+            scene.haze.enabled = true;
+        },
+        parameters: &[
+            ("haze.enabled", None),
+            ("haze.visibility_km", None),
+            ("haze.contrast", None),
+            ("haze.top_m", None),
+            ("haze.scale_height_m", None),
+            ("haze.angstrom", None),
+            ("haze.albedo_red", None),
+            ("haze.albedo_green", None),
+            ("haze.albedo_blue", None),
+            ("haze.forward_asymmetry", None),
+            ("haze.backward_asymmetry", None),
+            ("haze.forward_weight", None),
+        ],
+    },
+    Precondition {
         name: "the sun's disc, large and dark enough not to be clipped",
         prepare: |scene| {
             manual(scene);

@@ -28,7 +28,7 @@ fn small() -> OrdersQuality {
 }
 
 fn model(scene: &Scene) -> Atmosphere {
-    Atmosphere::new(&scene.atmosphere, &scene.ground)
+    scene.model()
 }
 
 /// Scenes that differ in medium; the last planet is not the Earth.

@@ -1,8 +1,7 @@
 //! The tables that the GPU fills against the same tables in f64.
 
 use tyndall_gpu::Texture;
-use tyndall_scattering::Atmosphere;
-use tyndall_scattering::atmosphere::{OZONE, SCATTERER_COUNT};
+use tyndall_scattering::atmosphere::{AEROSOL, AIR, OZONE};
 use tyndall_scattering::column_table::ColumnTable;
 use tyndall_scattering::irradiance_table::IrradianceTable;
 use tyndall_scattering::march::Marcher;
@@ -23,8 +22,7 @@ fn texels(studio: &Studio, texture: &Texture) -> Vec<[f32; 4]> {
 }
 
 fn marcher(scene: &Scene) -> Marcher {
-    let atmosphere = Atmosphere::new(&scene.atmosphere, &scene.ground);
-    Marcher::new(atmosphere, scene.sky.march_steps as usize / 4).expect("eight wavelengths")
+    Marcher::new(scene.model(), scene.sky.march_steps as usize / 4).expect("eight wavelengths")
 }
 
 /// Scenes that differ in medium, sun and altitude; the last planet is nothing like the Earth.
@@ -64,7 +62,7 @@ fn the_column_table_of_the_gpu_is_the_one_of_the_cpu() {
         for (got, want) in got.iter().zip(ColumnTable::new(&marcher.atmosphere).texels()) {
             // The first two are logarithms: their difference is the relative difference of the column. Columns of
             // less than a millionth of the shell's do not dim anything; f32 cannot hold the exponent of the thinnest.
-            for medium in 0..SCATTERER_COUNT {
+            for medium in [AIR, AEROSOL] {
                 let (got, want) = (f64::from(got[medium]), want[medium]);
                 if want > -10.0 && want < 60.0 {
                     worst = worst.max((got - want).abs());
@@ -109,11 +107,12 @@ fn the_sky_view_table_of_the_gpu_is_the_one_of_the_cpu() {
         let mu_sun = scene.sun_direction().expect("a sun").elevation_rad.sin();
         let size = [scene.sky.table_azimuths as usize, scene.sky.table_elevations as usize];
         let table = SkyViewTable::new(&marcher, scene.camera.altitude_m, mu_sun, size);
-        let [air, aerosol] = studio.renderer.tables().sky_view().map(|texture| texels(&studio, texture));
-        let brightest = table.texels().flat_map(|t| t.air.into_iter().chain(t.aerosol)).fold(0.0, f64::max);
+        let parts = studio.renderer.tables().sky_view().map(|texture| texels(&studio, texture));
+        let brightest = table.texels().flat_map(|texel| texel.0).flatten().fold(0.0, f64::max);
         let mut worst = 0.0_f64;
         for (i, want) in table.texels().enumerate() {
-            for (got, want) in [(air[i], want.air), (aerosol[i], want.aerosol)] {
+            // Without haze its texture is small.
+            for (got, want) in parts.iter().zip(want.0).filter_map(|(part, want)| Some((part.get(i)?, want))) {
                 let scale = want.iter().fold(1e-3 * brightest, |a, b| a.max(b.abs()));
                 let error = (0..3).map(|c| (f64::from(got[c]) - want[c]).abs() / scale).fold(0.0, f64::max);
                 worst = worst.max(error);

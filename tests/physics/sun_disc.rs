@@ -2,7 +2,6 @@
 
 use tyndall_core::spectrum::xyz_from_spectrum;
 use tyndall_io::{ExrOptions, Picture, PictureMetadata, Precision, read_exr, write_exr};
-use tyndall_scattering::Atmosphere;
 use tyndall_scattering::column_table::ColumnTable;
 use tyndall_scattering::refraction::RefractionTable;
 use tyndall_scene::Scene;
@@ -11,7 +10,7 @@ use crate::render::{Studio, luminance, scene};
 
 /// Illuminance [lux] of the sun at the observer on a plane facing it: T E0.
 fn expected_lux(scene: &Scene) -> f64 {
-    let atmosphere = Atmosphere::new(&scene.atmosphere, &scene.ground);
+    let atmosphere = scene.model();
     let mu_sun = scene.sun_direction().expect("a sun").elevation_rad.sin();
     let columns = ColumnTable::new(&atmosphere).lookup(scene.camera.altitude_m, mu_sun);
     let coefficients = atmosphere.coefficients().expect("eight wavelengths");

@@ -2,7 +2,6 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use tyndall_scattering::Atmosphere;
 use tyndall_scattering::march::Marcher;
 use tyndall_scattering::orders::{OrdersQuality, SourceTable};
 use tyndall_scattering::sky_view_table::SkyViewTable;
@@ -18,7 +17,7 @@ fn a_pixel_of_the_sky_is_the_cpu_tables_radiance_in_its_direction() {
         let scene = scene(preset, &[("sun.disc", "false"), ("sky.orders_detail", "preview")]);
         let pixels = studio.radiance(&scene, size);
         let depth = studio.shoot(&scene, size).read_depth_m(studio.gpu).expect("depth");
-        let atmosphere = Atmosphere::new(&scene.atmosphere, &scene.ground);
+        let atmosphere = scene.model();
         let marcher = Marcher::new(atmosphere, scene.sky.march_steps as usize / 4).expect("eight wavelengths");
         let sun = scene.sun_direction().expect("a sun");
         let table_size = [scene.sky.table_azimuths as usize, scene.sky.table_elevations as usize];

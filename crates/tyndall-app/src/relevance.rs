@@ -7,6 +7,7 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
     match (group, name) {
         ("sun", name) => sun(scene, name),
         ("atmosphere", name) => atmosphere(scene, name),
+        ("haze", name) if name != "enabled" && !scene.haze.enabled => Some("There is no haze; switch Enabled on."),
         ("film", "ev100") if scene.film.exposure == ExposureMode::Auto => {
             Some("The exposure follows the picture; set Exposure to manual.")
         }
@@ -84,6 +85,7 @@ mod tests {
             ("film", "compensation_ev"),
             ("ground", "pattern"),
             ("sky", "mode"),
+            ("haze", "enabled"),
         ] {
             assert_eq!(no_effect(&scene, group, name), None, "{group}.{name}");
         }
@@ -95,6 +97,8 @@ mod tests {
         let named = [
             "film.ev100",
             "ground.tile_m",
+            "haze.visibility_km",
+            "haze.forward_weight",
             "sky.dome_rings",
             "sky.dome_segments",
             "sun.year",

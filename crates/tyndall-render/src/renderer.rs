@@ -2,7 +2,6 @@
 
 use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, PassTiming};
-use tyndall_scattering::Atmosphere;
 use tyndall_scattering::dome::Dome;
 use tyndall_scattering::orders::OrdersQuality;
 use tyndall_scene::{Orders, OrdersDetail, Scene};
@@ -84,7 +83,7 @@ impl Renderer {
 
         self.timer.begin_frame();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        let model = Atmosphere::new(&scene.atmosphere, &scene.ground);
+        let model = scene.model();
         let uniforms = (AtmosphereUniform::new(&model, scene.sun.brightness)?, SkyView::new(scene, &model)?);
         let orders = OrdersRequest { model: &model, quality: orders_quality(scene), brightness: scene.sun.brightness };
         self.tables.update_night(gpu, scene, &model);

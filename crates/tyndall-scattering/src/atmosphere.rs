@@ -5,13 +5,15 @@ use tyndall_core::units::{M_PER_KM, MOLECULES_PER_M2_PER_DOBSON_UNIT};
 
 use crate::ScatteringError;
 use crate::air::{bodhaine_optical_depth, paper_scattering_per_m};
+use crate::haze::{HazeParams, haze, no_haze};
+use crate::layer_column::HazeLayer;
 use crate::medium::{Medium, Profile};
 use crate::ozone::ozone_cross_section_m2;
 use crate::params::{AerosolPhase, AirModel, AtmosphereParams, GroundParams};
 use crate::phase::Phase;
 
-/// Number of media: air, aerosol, ozone, in this order.
-pub const MEDIUM_COUNT: usize = 3;
+/// Number of media: air, aerosol, ozone, haze, in this order.
+pub const MEDIUM_COUNT: usize = 4;
 
 /// Index of the air in [`Atmosphere::media`].
 pub const AIR: usize = 0;
@@ -19,9 +21,14 @@ pub const AIR: usize = 0;
 pub const AEROSOL: usize = 1;
 /// Index of the ozone in [`Atmosphere::media`].
 pub const OZONE: usize = 2;
+/// Index of the haze or fog in [`Atmosphere::media`].
+pub const HAZE: usize = 3;
 
-/// Number of media that scatter: air and aerosol.
-pub const SCATTERER_COUNT: usize = 2;
+/// Number of media that scatter.
+pub const SCATTERER_COUNT: usize = SCATTERERS.len();
+/// Indices in [`Atmosphere::media`] of the media that scatter: air, aerosol, haze. Lists with one entry per scatterer have
+/// this order.
+pub const SCATTERERS: [usize; 3] = [AIR, AEROSOL, HAZE];
 
 /// A planet's atmosphere at any number of wavelengths.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,14 +41,14 @@ pub struct Atmosphere {
     pub wavelengths_nm: Vec<f64>,
     /// Sunlight at the top, on a plane facing the sun (W/m^2/nm).
     pub solar_irradiance_w_m2_nm: Vec<f64>,
-    /// Air, aerosol, ozone.
+    /// Air, aerosol, ozone, haze.
     pub media: [Medium; MEDIUM_COUNT],
     /// Share of light that the ground reflects, evenly in all directions.
     pub ground_albedo: Vec<f64>,
 }
 
 impl Atmosphere {
-    /// The user's atmosphere at the product's eight wavelengths.
+    /// The user's atmosphere at the product's eight wavelengths, without haze.
     #[must_use]
     pub fn new(params: &AtmosphereParams, ground: &GroundParams) -> Self {
         let spectrum = |value: &dyn Fn(f64) -> f64| WAVELENGTHS_NM.iter().map(|nm| value(*nm)).collect::<Vec<_>>();
@@ -50,9 +57,37 @@ impl Atmosphere {
             top_altitude_m: params.top_altitude_km * M_PER_KM,
             wavelengths_nm: WAVELENGTHS_NM.to_vec(),
             solar_irradiance_w_m2_nm: SOLAR_IRRADIANCE_W_M2_NM.to_vec(),
-            media: [air(params, &spectrum), aerosol(params, &spectrum), ozone(params, &spectrum)],
+            media: [
+                air(params, &spectrum),
+                aerosol(params, &spectrum),
+                ozone(params, &spectrum),
+                no_haze(WAVELENGTH_COUNT),
+            ],
             ground_albedo: spectrum(&|nm| albedo_from_rgb([ground.red, ground.green, ground.blue], nm)),
         }
+    }
+
+    /// The same atmosphere with haze or fog.
+    #[must_use]
+    pub fn with_haze(mut self, params: &HazeParams) -> Self {
+        self.media[HAZE] = haze(params, &self.wavelengths_nm);
+        self
+    }
+
+    /// The haze as a layer, or `None` without haze.
+    #[must_use]
+    pub fn haze_layer(&self) -> Option<HazeLayer> {
+        let medium = &self.media[HAZE];
+        let Profile::Layer { top_m, scale_height_m } = medium.profile else { return None };
+        let count = medium.scattering_per_m.len();
+        let strongest_per_m = (0..count).map(|index| medium.extinction_per_m(index)).fold(0.0, f64::max);
+        (strongest_per_m > 0.0).then(|| HazeLayer::new(self.planet_radius_m, (top_m, scale_height_m), strongest_per_m))
+    }
+
+    /// Values of the phase functions of the scatterers for the cosine between ray and sun (1/sr).
+    #[must_use]
+    pub fn phases(&self, nu: f64) -> [f64; SCATTERER_COUNT] {
+        SCATTERERS.map(|medium| self.media[medium].phase.value(nu))
     }
 
     /// Optical depth at wavelength `index` of a path with these columns (m).
@@ -78,7 +113,7 @@ impl Atmosphere {
                 .media
                 .each_ref()
                 .map(|medium| std::array::from_fn(|index| medium.extinction_per_m(index))),
-            source_w_m3_nm: [AIR, AEROSOL]
+            source_w_m3_nm: SCATTERERS
                 .map(|medium| std::array::from_fn(|index| self.media[medium].scattering_per_m[index] * solar[index])),
             solar_irradiance_w_m2_nm: solar,
             ground_albedo: fixed(&self.ground_albedo)?,
@@ -91,7 +126,7 @@ impl Atmosphere {
 pub struct Coefficients {
     /// Extinction of each medium at density 1 (1/m).
     pub extinction_per_m: [Spectrum; MEDIUM_COUNT],
-    /// Sunlight scattered by air and by aerosol at density 1, before the phase function (W/m^3/nm).
+    /// Sunlight scattered by each scatterer at density 1, before the phase function (W/m^3/nm).
     pub source_w_m3_nm: [Spectrum; SCATTERER_COUNT],
     /// Sunlight at the top (W/m^2/nm).
     pub solar_irradiance_w_m2_nm: Spectrum,
@@ -160,7 +195,7 @@ fn ozone(params: &AtmosphereParams, spectrum: &PerWavelength<'_>) -> Medium {
 
 /// A smooth reflectance spectrum for an RGB albedo: blue below 480 nm, red above 600 nm, linear blends through green at
 /// 540 nm. The three parts add up to one, so that grey stays grey.
-fn albedo_from_rgb([red, green, blue]: [f64; 3], wavelength_nm: f64) -> f64 {
+pub(crate) fn albedo_from_rgb([red, green, blue]: [f64; 3], wavelength_nm: f64) -> f64 {
     let blue_part = ((540.0 - wavelength_nm) / 60.0).clamp(0.0, 1.0);
     let red_part = ((wavelength_nm - 540.0) / 60.0).clamp(0.0, 1.0);
     blue * blue_part + red * red_part + green * (1.0 - blue_part - red_part)

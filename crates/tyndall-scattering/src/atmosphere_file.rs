@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 
 use tyndall_core::units::M_PER_KM;
 
+use crate::haze::no_haze;
 use crate::medium::{Medium, Profile};
 use crate::phase::Phase;
 use crate::{Atmosphere, ScatteringError};
@@ -46,7 +47,7 @@ pub fn parse_atmosphere(text: &str) -> Result<Atmosphere, ScatteringError> {
         planet_radius_m: number(&rows, "radius_km")? * M_PER_KM,
         top_altitude_m: (number(&rows, "top_km")? - number(&rows, "radius_km")?) * M_PER_KM,
         solar_irradiance_w_m2_nm: spectrum(&rows, "solar", count)?,
-        media: [air, aerosol(&rows, count)?, ozone(&rows, count)?],
+        media: [air, aerosol(&rows, count)?, ozone(&rows, count)?, no_haze(count)],
         ground_albedo: spectrum(&rows, "albedo", count)?,
         wavelengths_nm,
     })

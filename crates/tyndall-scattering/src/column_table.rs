@@ -4,7 +4,7 @@
 //! that of Bruneton and Neyret 2008: x runs with the distance to the top, so that it is dense at the horizon; y runs with
 //! the distance to the horizon, so that it is dense at the ground. Columns of air and aerosol are stored as
 //! ln (column / density at the observer), Chapman's function, which varies slowly where the column itself falls by e each
-//! scale height; ozone as it is.
+//! scale height; ozone as it is. Haze has a closed form ([`crate::layer_column`]) and no place in the table.
 //!
 //! Exact: [`columns_to_top`]; table: [`ColumnTable::new`]; lookup: [`ColumnTable::lookup`]. WGSL: `shaders/sky/column_*`.
 
@@ -12,8 +12,9 @@ use rayon::prelude::*;
 use tyndall_core::grid::Grid2;
 
 use crate::Atmosphere;
-use crate::atmosphere::{AEROSOL, AIR, MEDIUM_COUNT, OZONE, SCATTERER_COUNT};
+use crate::atmosphere::{AEROSOL, AIR, OZONE};
 use crate::geometry::{distance_to_top, horizon_mu};
+use crate::layer_column::HazeLayer;
 use crate::optical_length::{Columns, columns_to_top};
 use crate::texel::Texel;
 
@@ -28,10 +29,14 @@ const SMALLEST_COLUMN_M: f64 = 1e-300;
 pub struct ColumnTable {
     planet_radius_m: f64,
     top_altitude_m: f64,
-    scale_heights_m: [f64; SCATTERER_COUNT],
+    scale_heights_m: [f64; 2],
     /// ln (air / density), ln (aerosol / density), ozone.
-    cells: Grid2<Texel<MEDIUM_COUNT>>,
+    cells: Grid2<Texel<STORED_COUNT>>,
+    haze: Option<HazeLayer>,
 }
+
+/// Media in the table: air, aerosol, ozone.
+const STORED_COUNT: usize = 3;
 
 impl ColumnTable {
     /// Fills the table, about 33,000 quadratures of three media.
@@ -49,7 +54,14 @@ impl ColumnTable {
         };
         let texels = (0..COLUMN_TABLE_SIZE[0] * COLUMN_TABLE_SIZE[1]).into_par_iter().map(texel).collect();
         let cells = Grid2::from_cells(COLUMN_TABLE_SIZE, texels).expect("one texel per cell");
-        Self { planet_radius_m, top_altitude_m, scale_heights_m, cells }
+        let table = Self { planet_radius_m, top_altitude_m, scale_heights_m, cells, haze: None };
+        table.with_haze_of(atmosphere)
+    }
+
+    /// The same table with the haze of another atmosphere, whose other media have the profiles of this one's.
+    #[must_use]
+    pub fn with_haze_of(self, atmosphere: &Atmosphere) -> Self {
+        Self { haze: atmosphere.haze_layer(), ..self }
     }
 
     /// Columns (m) from altitude `h_m` (0 to the top) in a direction above the horizon.
@@ -61,11 +73,12 @@ impl ColumnTable {
         let along = |y: usize| self.cells[[x0, y]] * (1.0 - fx) + self.cells[[x0 + 1, y]] * fx;
         let Texel([air, aerosol, ozone]) = along(y0) * (1.0 - fy) + along(y0 + 1) * fy;
         let [air_height_m, aerosol_height_m] = self.scale_heights_m;
-        [(air - h_m / air_height_m).exp(), (aerosol - h_m / aerosol_height_m).exp(), ozone]
+        let haze = self.haze.map_or(0.0, |layer| layer.column(h_m, mu));
+        [(air - h_m / air_height_m).exp(), (aerosol - h_m / aerosol_height_m).exp(), ozone, haze]
     }
 
     /// The stored texels (ln of air and of aerosol over the density at the texel's altitude, ozone), x fastest.
-    pub fn texels(&self) -> impl Iterator<Item = [f64; MEDIUM_COUNT]> {
+    pub fn texels(&self) -> impl Iterator<Item = [f64; STORED_COUNT]> {
         self.cells.cells().iter().map(|texel| texel.0)
     }
 }

@@ -8,7 +8,6 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use tyndall_core::spectrum::{Spectrum, WAVELENGTH_COUNT};
 
-use crate::atmosphere::{AEROSOL, AIR};
 use crate::geometry::Ray;
 use crate::march::Marcher;
 
@@ -92,10 +91,12 @@ pub fn sky_irradiance(marcher: &Marcher, mu_sun: f64) -> Spectrum {
             let nu = mu * mu_sun + ((1.0 - mu * mu) * (1.0 - mu_sun * mu_sun)).max(0.0).sqrt() * angle.cos();
             let ray = Ray { h_m: 0.0, mu, mu_sun, nu: nu.clamp(-1.0, 1.0) };
             let parts = marcher.scattered_parts(&ray);
-            let phases = [AIR, AEROSOL].map(|medium| marcher.atmosphere.media[medium].phase.value(ray.nu));
+            let phases = marcher.atmosphere.phases(ray.nu);
             let weight = PI * (high - low) / AZIMUTHS as f64;
-            for (k, sum) in irradiance.iter_mut().enumerate() {
-                *sum += weight * (phases[AIR] * parts[AIR][k] + phases[AEROSOL] * parts[AEROSOL][k]);
+            for (phase, part) in phases.into_iter().zip(&parts) {
+                for (sum, value) in irradiance.iter_mut().zip(part) {
+                    *sum += weight * phase * value;
+                }
             }
         }
     }

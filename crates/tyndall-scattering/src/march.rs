@@ -8,7 +8,7 @@
 
 use tyndall_core::spectrum::{Spectrum, WAVELENGTH_COUNT};
 
-use crate::atmosphere::{AEROSOL, AIR, Coefficients, MEDIUM_COUNT, SCATTERER_COUNT};
+use crate::atmosphere::{Coefficients, MEDIUM_COUNT, SCATTERER_COUNT, SCATTERERS};
 use crate::column_table::ColumnTable;
 use crate::geometry::{Ray, altitude_along, mu_along, shadow_interval};
 use crate::optical_length::Columns;
@@ -40,8 +40,8 @@ impl Marcher {
         Ok(Self { atmosphere, coefficients, columns, panels })
     }
 
-    /// Light scattered once towards the observer along the whole ray, before the phase functions (W/m^2/nm): by air and
-    /// by aerosol. The ray starts inside the atmosphere.
+    /// Light scattered once towards the observer along the whole ray, before the phase functions (W/m^2/nm): by each
+    /// scatterer. The ray starts inside the atmosphere.
     #[must_use]
     pub fn scattered_parts(&self, ray: &Ray) -> [Spectrum; SCATTERER_COUNT] {
         self.scattered_parts_to(ray, ray_end(&self.atmosphere, ray.h_m, ray.mu).length_m)
@@ -76,7 +76,7 @@ impl Marcher {
                 let path: Columns = std::array::from_fn(|m| {
                     sum.columns[m] + sun[m] + (0..4).map(|j| RUNNING[i][j] * densities[j][m]).sum::<f64>()
                 });
-                let lit_densities = [AIR, AEROSOL].map(|medium| WEIGHTS[i] * densities[i][medium]);
+                let lit_densities = SCATTERERS.map(|medium| WEIGHTS[i] * densities[i][medium]);
                 self.add_light(&self.coefficients.transmittance(&path), lit_densities, &mut sum.parts);
             }
         }

@@ -17,6 +17,13 @@ pub enum Profile {
         /// Distance at which the density reaches zero (m).
         half_width_m: f64,
     },
+    /// 1 from the ground to the top of a layer, then exp(-(h - top) / H); haze and fog.
+    Layer {
+        /// Altitude up to which the density is 1 (m); 0 for fog that thins out from the ground.
+        top_m: f64,
+        /// Scale height H above (m).
+        scale_height_m: f64,
+    },
 }
 
 impl Profile {
@@ -26,6 +33,7 @@ impl Profile {
         match *self {
             Self::Exponential { scale_height_m } => (-altitude_m / scale_height_m).exp(),
             Self::Tent { centre_m, half_width_m } => (1.0 - (altitude_m - centre_m).abs() / half_width_m).max(0.0),
+            Self::Layer { top_m, scale_height_m } => (-(altitude_m - top_m).max(0.0) / scale_height_m).exp(),
         }
     }
 
@@ -34,6 +42,7 @@ impl Profile {
     pub fn vertical_column_m(&self) -> f64 {
         match *self {
             Self::Exponential { scale_height_m } => scale_height_m,
+            Self::Layer { top_m, scale_height_m } => top_m + scale_height_m,
             Self::Tent { centre_m, half_width_m } => {
                 let below = (half_width_m - centre_m).max(0.0);
                 half_width_m - 0.5 * below * below / half_width_m
@@ -56,6 +65,13 @@ pub struct Medium {
 }
 
 impl Medium {
+    /// Whether it neither scatters nor absorbs, so that nothing changes when it is left out.
+    #[must_use]
+    pub fn is_absent(&self) -> bool {
+        let nothing = |values: &[f64]| values.iter().all(|value| *value <= 0.0);
+        nothing(&self.scattering_per_m) && nothing(&self.absorption_per_m)
+    }
+
     /// Scattering plus absorption (1/m) at wavelength `index`.
     #[must_use]
     pub fn extinction_per_m(&self, index: usize) -> f64 {
@@ -74,6 +90,7 @@ mod tests {
             Profile::Exponential { scale_height_m: 8e3 },
             Profile::Tent { centre_m: 25e3, half_width_m: 15e3 },
             Profile::Tent { centre_m: 5e3, half_width_m: 15e3 },
+            Profile::Layer { top_m: 4e3, scale_height_m: 1e3 },
         ];
         for profile in profiles {
             let integral = integrate(0.0, 400e3, 4000, |altitude_m| profile.density(altitude_m));

@@ -25,6 +25,13 @@ pub fn phase_henyey_greenstein(cos_theta: f64, g: f64) -> f64 {
     (1.0 - g * g) / (4.0 * PI * d * d.sqrt())
 }
 
+/// Two lobes of Henyey and Greenstein, `g` = [forward, backward], the forward one with the share `forward_weight`.
+#[must_use]
+pub fn phase_double_henyey_greenstein(cos_theta: f64, [forward, backward]: [f64; 2], forward_weight: f64) -> f64 {
+    forward_weight * phase_henyey_greenstein(cos_theta, forward)
+        + (1.0 - forward_weight) * phase_henyey_greenstein(cos_theta, backward)
+}
+
 /// Which phase function a medium has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Phase {
@@ -40,6 +47,13 @@ pub enum Phase {
         /// Mean cosine, -1 to 1.
         g: f64,
     },
+    /// [`phase_double_henyey_greenstein`].
+    DoubleHenyeyGreenstein {
+        /// Mean cosines of the forward and of the backward lobe, -1 to 1.
+        g: [f64; 2],
+        /// Share of the forward lobe, 0 to 1.
+        forward_weight: f64,
+    },
 }
 
 impl Phase {
@@ -50,6 +64,9 @@ impl Phase {
             Self::Rayleigh => phase_rayleigh(cos_theta),
             Self::CornetteShanks { g } => phase_cornette_shanks(cos_theta, g),
             Self::HenyeyGreenstein { g } => phase_henyey_greenstein(cos_theta, g),
+            Self::DoubleHenyeyGreenstein { g, forward_weight } => {
+                phase_double_henyey_greenstein(cos_theta, g, forward_weight)
+            }
         }
     }
 }
@@ -66,7 +83,8 @@ mod tests {
     fn all() -> Vec<Phase> {
         let lobes = [-0.8, -0.3, 0.0, 0.5, 0.76, 0.9];
         let pairs = lobes.map(|g| [Phase::CornetteShanks { g }, Phase::HenyeyGreenstein { g }]);
-        [Phase::Rayleigh].into_iter().chain(pairs.into_iter().flatten()).collect()
+        let double = Phase::DoubleHenyeyGreenstein { g: [0.85, -0.3], forward_weight: 0.9 };
+        [Phase::Rayleigh, double].into_iter().chain(pairs.into_iter().flatten()).collect()
     }
 
     #[test]

@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use crate::Atmosphere;
-use crate::atmosphere::{AEROSOL, AIR, MEDIUM_COUNT, SCATTERER_COUNT};
+use crate::atmosphere::{MEDIUM_COUNT, SCATTERER_COUNT, SCATTERERS};
 use crate::geometry::{
     Ray, altitude_along, distance_to_ground, distance_to_top, horizon_mu, mu_along, shadow_interval,
 };
@@ -34,7 +34,7 @@ pub fn ray_end(atmosphere: &Atmosphere, h_m: f64, mu: f64) -> RayEnd {
     )
 }
 
-/// Radiance of the sky in one direction (W/m^2/sr/nm) per wavelength: air, aerosol and the sunlit ground, each behind
+/// Radiance of the sky in one direction (W/m^2/sr/nm) per wavelength: air, aerosol, haze and the sunlit ground, each behind
 /// the atmosphere in front of it.
 #[must_use]
 pub fn single_scattering(atmosphere: &Atmosphere, ray: &Ray) -> Vec<f64> {
@@ -46,17 +46,18 @@ pub fn single_scattering(atmosphere: &Atmosphere, ray: &Ray) -> Vec<f64> {
 pub fn single_scattering_to(atmosphere: &Atmosphere, ray: &Ray, end: RayEnd) -> Vec<f64> {
     let parts = scattered_parts(atmosphere, ray, end.length_m);
     let ground = if end.on_ground { sunlit_ground(atmosphere, ray, end.length_m) } else { vec![0.0; parts[0].len()] };
-    let phases = [AIR, AEROSOL].map(|medium| atmosphere.media[medium].phase.value(ray.nu));
-    (0..ground.len()).map(|i| phases[AIR] * parts[AIR][i] + phases[AEROSOL] * parts[AEROSOL][i] + ground[i]).collect()
+    let phases = atmosphere.phases(ray.nu);
+    let scattered = |i: usize| phases.iter().zip(&parts).map(|(phase, part)| phase * part[i]).sum::<f64>();
+    ground.iter().enumerate().map(|(i, ground)| scattered(i) + ground).collect()
 }
 
 /// Panels of four nodes on each lit stretch; doubling them changes no direction by more than 1e-6.
 const PANELS: usize = 96;
 
-/// The integral of equation (1) up to `length_m` for air and aerosol, before the phase function (W/m^2/nm).
+/// The integral of equation (1) up to `length_m` for each scatterer, before the phase function (W/m^2/nm).
 #[must_use]
 pub fn scattered_parts(atmosphere: &Atmosphere, ray: &Ray, length_m: f64) -> [Vec<f64>; SCATTERER_COUNT] {
-    let mut parts = [AIR, AEROSOL].map(|_| vec![0.0; atmosphere.wavelengths_nm.len()]);
+    let mut parts = SCATTERERS.map(|_| vec![0.0; atmosphere.wavelengths_nm.len()]);
     let radius_m = atmosphere.planet_radius_m;
     let shadow = shadow_interval(radius_m, ray, length_m).unwrap_or((length_m, length_m));
     let lowest_m = (-(radius_m + ray.h_m) * ray.mu).clamp(0.0, length_m);
@@ -100,8 +101,8 @@ fn add_stretch(
             let path: Columns = std::array::from_fn(|m| here[m] + sun[m]);
             for (wavelength, solar) in atmosphere.solar_irradiance_w_m2_nm.iter().enumerate() {
                 let light = solar * (-atmosphere.optical_depth(&path, wavelength)).exp() * WEIGHTS[i];
-                for medium in [AIR, AEROSOL] {
-                    parts[medium][wavelength] +=
+                for (part, medium) in parts.iter_mut().zip(SCATTERERS) {
+                    part[wavelength] +=
                         light * atmosphere.media[medium].scattering_per_m[wavelength] * densities[i][medium];
                 }
             }
@@ -140,6 +141,7 @@ fn sunlit_ground(atmosphere: &Atmosphere, ray: &Ray, length_m: f64) -> Vec<f64> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::atmosphere::AIR;
     use crate::params::{AtmosphereParams, GroundParams};
 
     fn with(change: impl FnOnce(&mut AtmosphereParams)) -> Atmosphere {

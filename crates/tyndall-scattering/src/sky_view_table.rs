@@ -3,7 +3,7 @@
 //! What the paper calls the look-up table of the sky's intensity distribution. Rows run from the nadir over the horizon
 //! to the zenith, a quarter below and the rest above, quadratically dense at the horizon, which no interpolation crosses; columns
 //! run over the azimuth from the sun, 0 to pi, the other half being its mirror image. A texel holds linear Rec.709 of
-//! light scattered by air and by aerosol *before* their phase functions, which are multiplied per pixel, so that the
+//! light scattered by air, aerosol and haze *before* their phase functions, which are multiplied per pixel, so that the
 //! aureole is sharp at any size of the table. Light of higher orders has a table of its own, [`crate::sky_diffuse_table`].
 //! The sun's disc and the ground are not in it.
 //!
@@ -14,28 +14,22 @@ use rayon::prelude::*;
 use tyndall_core::grid::Grid2;
 use tyndall_core::spectrum::rec709_from_spectrum;
 
-use crate::atmosphere::{AEROSOL, AIR};
+use crate::atmosphere::SCATTERER_COUNT;
 use crate::geometry::Ray;
 use crate::march::Marcher;
 use crate::orders::SourceTable;
 use crate::sky_diffuse_table::SkyDiffuseTable;
 use crate::sky_view_map::{ROWS_PER_ROW_BELOW, horizon_elevation, row_length_m, sky_view_map, sky_view_map_inverse};
 
-/// Linear Rec.709 (cd/m^2 sr) by air and by aerosol, before the phase functions.
+/// Linear Rec.709 (cd/m^2 sr) by each scatterer, before the phase functions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SkyTexel {
-    /// By air.
-    pub air: [f64; 3],
-    /// By aerosol.
-    pub aerosol: [f64; 3],
-}
+pub struct SkyTexel(pub [[f64; 3]; SCATTERER_COUNT]);
 
 impl std::ops::Add for SkyTexel {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
-        Self { air: sum(self.air, other.air), aerosol: sum(self.aerosol, other.aerosol) }
+        Self(std::array::from_fn(|part| std::array::from_fn(|i| self.0[part][i] + other.0[part][i])))
     }
 }
 
@@ -43,7 +37,7 @@ impl std::ops::Mul<f64> for SkyTexel {
     type Output = Self;
 
     fn mul(self, factor: f64) -> Self {
-        Self { air: self.air.map(|v| v * factor), aerosol: self.aerosol.map(|v| v * factor) }
+        Self(self.0.map(|part| part.map(|value| value * factor)))
     }
 }
 
@@ -73,7 +67,7 @@ impl SkyViewTable {
             let nu = mu * mu_sun + sine * (1.0 - mu_sun * mu_sun).max(0.0).sqrt() * azimuth.cos();
             let ray = Ray { h_m, mu, mu_sun, nu: nu.clamp(-1.0, 1.0) };
             let parts = marcher.scattered_parts_to(&ray, row_length_m(&marcher.atmosphere, &ray, above));
-            SkyTexel { air: rec709_from_spectrum(&parts[AIR]), aerosol: rec709_from_spectrum(&parts[AEROSOL]) }
+            SkyTexel(parts.map(|part| rec709_from_spectrum(&part)))
         };
         let fill = |rows: usize, above: bool| {
             let part = [size[0], rows];
@@ -101,7 +95,7 @@ impl SkyViewTable {
         Self { diffuse: Some(SkyDiffuseTable::new(marcher, source, (h_m, mu_sun), diffuse_size)), ..self }
     }
 
-    /// The two parts in a direction: elevation above the horizontal and azimuth from the sun (rad).
+    /// The parts in a direction: elevation above the horizontal and azimuth from the sun (rad).
     #[must_use]
     pub fn lookup(&self, elevation: f64, azimuth: f64) -> SkyTexel {
         let above = elevation >= self.horizon_elevation;
@@ -117,10 +111,14 @@ impl SkyViewTable {
     /// Radiance (cd/m^2) in a direction, phase functions included.
     #[must_use]
     pub fn radiance(&self, marcher: &Marcher, elevation: f64, azimuth: f64, nu: f64) -> [f64; 3] {
-        let texel = self.lookup(elevation, azimuth);
-        let [air, aerosol] = [AIR, AEROSOL].map(|medium| marcher.atmosphere.media[medium].phase.value(nu));
-        let diffuse = self.diffuse.as_ref().map_or([0.0; 3], |table| table.lookup(elevation, azimuth));
-        std::array::from_fn(|i| air * texel.air[i] + aerosol * texel.aerosol[i] + diffuse[i])
+        let SkyTexel(parts) = self.lookup(elevation, azimuth);
+        let mut radiance = self.diffuse.as_ref().map_or([0.0; 3], |table| table.lookup(elevation, azimuth));
+        for (phase, part) in marcher.atmosphere.phases(nu).into_iter().zip(parts) {
+            for (sum, value) in radiance.iter_mut().zip(part) {
+                *sum += phase * value;
+            }
+        }
+        radiance
     }
 
     /// Texels below the horizon from the nadir up, then above it up to the zenith: the rows of the GPU's texture.
@@ -136,6 +134,7 @@ mod tests {
 
     use super::*;
     use crate::Atmosphere;
+    use crate::atmosphere::AIR;
     use crate::params::{AtmosphereParams, GroundParams};
     use crate::single_scattering::single_scattering;
 
@@ -162,12 +161,13 @@ mod tests {
                 let [view, sun, azimuth] = [zenith, sun_zenith, azimuth].map(f64::to_radians);
                 let ray = Ray::from_angles(EYE_M, view, sun, azimuth);
                 let parts = marcher.scattered_parts(&ray);
-                let [air, aerosol] = [AIR, AEROSOL].map(|medium| marcher.atmosphere.media[medium].phase.value(ray.nu));
+                let phases = marcher.atmosphere.phases(ray.nu);
                 let exact = single_scattering(&marcher.atmosphere, &ray);
                 // Relative to the direction's strongest wavelength: at the horizon of a setting sun violet is 1e-7 of red.
                 let strongest = exact.iter().copied().fold(0.0, f64::max);
                 for (k, exact) in exact.into_iter().enumerate() {
-                    let error = (air * parts[AIR][k] + aerosol * parts[AEROSOL][k] - exact).abs() / strongest;
+                    let got: f64 = phases.iter().zip(&parts).map(|(phase, part)| phase * part[k]).sum();
+                    let error = (got - exact).abs() / strongest;
                     assert!(error < 3e-3, "sun {sun_zenith} view {zenith} wavelength {k}: {error:.1e}");
                     worst = worst.max(error);
                 }

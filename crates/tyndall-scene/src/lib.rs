@@ -1,8 +1,8 @@
 //! Scenes: what a picture shows, as parameters, as a TOML file, and as the camera and the sun that follow from them.
 //!
-//! - [`Scene`]: the seven groups of parameters, reached by path (`sun.elevation_deg`), checked and hashed.
+//! - [`Scene`]: the eight groups of parameters, reached by path (`sun.elevation_deg`), checked and hashed.
 //! - [`SceneFile`]: scene files, read with exact error positions and written with the user's comments kept.
-//! - [`params`]: camera, sun, sky, film and image; atmosphere and ground come from [`tyndall_scattering::params`].
+//! - [`params`]: camera, sun, sky, film and image; atmosphere, haze and ground come from [`tyndall_scattering::params`].
 //! - [`presets`]: the scenes that come with Tyndall.
 //! - [`schema`] and [`markdown_table`]: the format for editors and for readers.
 //! - [`sun`]: direction of the sun from angles or from date, time and place.
@@ -34,4 +34,6 @@ pub use place::Place;
 pub use preset::{Preset, presets};
 pub use scene::Scene;
 pub use sun::SunDirection;
+pub use tyndall_scattering::Atmosphere;
+pub use tyndall_scattering::haze::{HazeParams, VisibilityContrast};
 pub use tyndall_scattering::params::{AerosolPhase, AirModel, AtmosphereParams, GroundParams};

@@ -5,8 +5,8 @@ use tyndall_core::{ParamInfo, ParamSet};
 use tyndall_scattering::refraction::RefractiveAir;
 
 use crate::{
-    AtmosphereParams, CameraParams, FilmParams, GroundParams, ImageParams, SceneError, SceneHash, SkyParams,
-    SunDirection, SunParams, brief::brief, nearest::nearest, sun,
+    Atmosphere, AtmosphereParams, CameraParams, FilmParams, GroundParams, HazeParams, ImageParams, SceneError,
+    SceneHash, SkyParams, SunDirection, SunParams, brief::brief, nearest::nearest, sun,
 };
 
 /// Everything that a picture depends on, and its title.
@@ -22,6 +22,8 @@ pub struct Scene {
     pub sun: SunParams,
     /// Air, aerosol and ozone.
     pub atmosphere: AtmosphereParams,
+    /// Haze or fog near the ground.
+    pub haze: HazeParams,
     /// The ground.
     pub ground: GroundParams,
     /// How the sky is computed.
@@ -35,11 +37,12 @@ pub struct Scene {
 impl Scene {
     /// The groups with their names in scene files, in the order in which they are shown.
     #[must_use]
-    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 7] {
+    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 8] {
         [
             ("camera", &self.camera),
             ("sun", &self.sun),
             ("atmosphere", &self.atmosphere),
+            ("haze", &self.haze),
             ("ground", &self.ground),
             ("sky", &self.sky),
             ("film", &self.film),
@@ -49,11 +52,12 @@ impl Scene {
 
     /// [`Scene::groups`], to change them.
     #[must_use]
-    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 7] {
+    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 8] {
         [
             ("camera", &mut self.camera),
             ("sun", &mut self.sun),
             ("atmosphere", &mut self.atmosphere),
+            ("haze", &mut self.haze),
             ("ground", &mut self.ground),
             ("sky", &mut self.sky),
             ("film", &mut self.film),
@@ -99,6 +103,12 @@ impl Scene {
             return Err(SceneError::OzoneAboveTop { ozone_altitude_km, top_altitude_km });
         }
         self.sun_direction().map(|_direction| ())
+    }
+
+    /// Planet, air and ground as the model that all light transport reads, at the eight wavelengths.
+    #[must_use]
+    pub fn model(&self) -> Atmosphere {
+        Atmosphere::new(&self.atmosphere, &self.ground).with_haze(&self.haze)
     }
 
     /// Direction to the sun, from its angles or from date, time and place.

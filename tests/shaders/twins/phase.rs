@@ -17,4 +17,9 @@ twins! { "common/phase.wgsl";
     phase_henyey_greenstein in [-1.0..=1.0, -0.95..=0.95, NONE, NONE], within Tolerance::relative(1.5e-4), {
         "phase_henyey_greenstein(x.x, x.y)" => |x| phase::phase_henyey_greenstein(x[0], x[1]),
     }
+    phase_double_henyey_greenstein in [-1.0..=1.0, 0.0..=0.95, -0.95..=0.0, 0.0..=1.0], within Tolerance::relative(1.5e-4), {
+        "phase_double_henyey_greenstein(x.x, x.yz, x.w)" => |x| {
+            phase::phase_double_henyey_greenstein(x[0], [x[1], x[2]], x[3])
+        },
+    }
 }

@@ -3,7 +3,7 @@
 use tyndall_core::spectrum::{Spectrum, rec709_from_spectrum_matrix};
 use tyndall_scattering::Atmosphere as Model;
 use tyndall_scattering::ScatteringError;
-use tyndall_scattering::atmosphere::{AEROSOL, AIR, OZONE};
+use tyndall_scattering::atmosphere::{AEROSOL, AIR, HAZE, OZONE};
 use tyndall_scattering::medium::Profile;
 use tyndall_scattering::orders::OrdersQuality;
 use tyndall_scattering::orders::basis::MAX_DEGREE;
@@ -29,11 +29,20 @@ pub struct Atmosphere {
     pub ozone_half_width_m: f32,
     pub aerosol_g: f32,
     pub aerosol_phase: u32,
+    pub haze_top_m: f32,
+    pub haze_scale_height_m: f32,
+    pub haze_g: [f32; 2],
+    pub haze_forward_weight: f32,
+    pub haze_strongest: f32,
+    pub haze_zone_m: f32,
+    pub padding: u32,
     pub air_extinction: [f32; 8],
     pub aerosol_extinction: [f32; 8],
     pub ozone_extinction: [f32; 8],
     pub air_source: [f32; 8],
     pub aerosol_source: [f32; 8],
+    pub haze_extinction: [f32; 8],
+    pub haze_source: [f32; 8],
     pub solar_irradiance: [f32; 8],
     pub ground_albedo: [f32; 8],
     pub red: [f32; 8],
@@ -69,6 +78,7 @@ pub struct SkyView {
 pub struct Orders {
     pub air_scattering: [f32; 8],
     pub aerosol_scattering: [f32; 8],
+    pub haze_scattering: [f32; 8],
     pub moments: [[f32; 4]; MAX_DEGREE + 1],
     pub zeniths: [[f32; 4]; ORDERS_ZENITHS_MAX],
     pub altitudes: u32,
@@ -96,16 +106,18 @@ impl Orders {
     pub fn new(model: &Model, quality: &OrdersQuality, brightness: f64) -> Self {
         let media = ScatteringMedia::new(model);
         let nodes = Nodes::new(model.planet_radius_m, model.top_altitude_m, quality);
-        let [air, aerosol] = media.moments;
+        let [air, aerosol, haze] = media.moments;
+        let [air_scattering, aerosol_scattering, haze_scattering] = media.scattering_per_m;
         let zenith_count = quality.zeniths.min(ORDERS_ZENITHS_MAX);
         let mut zeniths = [[0.0; 4]; ORDERS_ZENITHS_MAX];
         for (node, (t, weight)) in zeniths.iter_mut().zip(gauss_legendre(zenith_count)) {
             *node = [t as f32, weight as f32, 0.0, 0.0];
         }
         Self {
-            air_scattering: media.scattering_per_m[AIR],
-            aerosol_scattering: media.scattering_per_m[AEROSOL],
-            moments: std::array::from_fn(|l| [air[l], aerosol[l], 0.0, 0.0]),
+            air_scattering,
+            aerosol_scattering,
+            haze_scattering,
+            moments: std::array::from_fn(|l| [air[l], aerosol[l], haze[l], 0.0]),
             zeniths,
             altitudes: quality.altitudes as u32,
             suns_above: quality.suns_above as u32,
@@ -141,13 +153,16 @@ impl Atmosphere {
         let (ozone_altitude_m, ozone_half_width_m) = match model.media[OZONE].profile {
             Profile::Tent { centre_m, half_width_m } => (centre_m, half_width_m),
             // No atmosphere of this crate has another ozone; a tent far outside would hold nothing.
-            Profile::Exponential { .. } => (-1e9, 1.0),
+            Profile::Exponential { .. } | Profile::Layer { .. } => (-1e9, 1.0),
         };
         let (aerosol_phase, aerosol_g) = match model.media[AEROSOL].phase {
             Phase::CornetteShanks { g } => (0, g),
             Phase::HenyeyGreenstein { g } => (1, g),
-            Phase::Rayleigh => (0, 0.0),
+            // Without a lobe it is Rayleigh's.
+            Phase::Rayleigh | Phase::DoubleHenyeyGreenstein { .. } => (0, 0.0),
         };
+        let haze = HazeUniform::new(model);
+        let [air_source, aerosol_source, haze_source] = coefficients.source_w_m3_nm.each_ref().map(bright);
         Ok(Self {
             planet_radius_m: model.planet_radius_m as f32,
             top_altitude_m: model.top_altitude_m as f32,
@@ -157,17 +172,56 @@ impl Atmosphere {
             ozone_half_width_m: ozone_half_width_m as f32,
             aerosol_g: aerosol_g as f32,
             aerosol_phase,
+            haze_top_m: haze.top_m,
+            haze_scale_height_m: haze.scale_height_m,
+            haze_g: haze.g,
+            haze_forward_weight: haze.forward_weight,
+            haze_strongest: haze.strongest,
+            haze_zone_m: haze.zone_m,
+            padding: 0,
             air_extinction: narrow(&coefficients.extinction_per_m[AIR]),
             aerosol_extinction: narrow(&coefficients.extinction_per_m[AEROSOL]),
             ozone_extinction: narrow(&coefficients.extinction_per_m[OZONE]),
-            air_source: bright(&coefficients.source_w_m3_nm[AIR]),
-            aerosol_source: bright(&coefficients.source_w_m3_nm[AEROSOL]),
+            air_source,
+            aerosol_source,
+            haze_extinction: narrow(&coefficients.extinction_per_m[HAZE]),
+            haze_source,
             solar_irradiance: bright(&coefficients.solar_irradiance_w_m2_nm),
             ground_albedo: narrow(&coefficients.ground_albedo),
             red: narrow(&red),
             green: narrow(&green),
             blue: narrow(&blue),
         })
+    }
+}
+
+/// The haze of the model as the shaders have it.
+struct HazeUniform {
+    top_m: f32,
+    scale_height_m: f32,
+    g: [f32; 2],
+    forward_weight: f32,
+    strongest: f32,
+    zone_m: f32,
+}
+
+impl HazeUniform {
+    #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
+    fn new(model: &Model) -> Self {
+        let layer = model.haze_layer();
+        let (g, forward_weight) = match model.media[HAZE].phase {
+            Phase::DoubleHenyeyGreenstein { g, forward_weight } => (g, forward_weight),
+            Phase::HenyeyGreenstein { g } => ([g, 0.0], 1.0),
+            Phase::Rayleigh | Phase::CornetteShanks { .. } => ([0.0; 2], 1.0),
+        };
+        Self {
+            top_m: layer.map_or(0.0, |layer| layer.top_m) as f32,
+            scale_height_m: layer.map_or(1.0, |layer| layer.scale_height_m) as f32,
+            g: g.map(|g| g as f32),
+            forward_weight: forward_weight as f32,
+            strongest: layer.map_or(0.0, |layer| layer.strongest_per_m) as f32,
+            zone_m: layer.map_or(0.0, |layer| layer.zone_m) as f32,
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use std::time::Instant;
 use tyndall_core::spectrum::WAVELENGTH_COUNT;
 use tyndall_scattering::Atmosphere as Model;
 use tyndall_scattering::ScatteringError;
-use tyndall_scattering::atmosphere::MEDIUM_COUNT;
+use tyndall_scattering::atmosphere::{AEROSOL, AIR, OZONE};
 use tyndall_scattering::column_table::ColumnTable;
 use tyndall_scattering::march::Marcher;
 use tyndall_scattering::medium::Profile;
@@ -23,8 +23,9 @@ const PANELS: usize = 8;
 /// Tables that may be under way at a time: a fine one that nobody waits for any longer, and the one that is wanted.
 const JOBS: usize = 2;
 
-/// Radius (m), altitude of the top (m) and density profiles: what columns follow from.
-type Shape = (f64, f64, [Profile; MEDIUM_COUNT]);
+/// Radius (m), altitude of the top (m) and the density profiles of air, aerosol and ozone: what the table of columns
+/// follows from.
+type Shape = (f64, f64, [Profile; 3]);
 
 /// One value per wavelength and harmonic or sun, in the layout of `shaders/sky/orders.wgsl`.
 pub(super) type Values = Vec<[f32; WAVELENGTH_COUNT]>;
@@ -136,7 +137,8 @@ fn source(marcher: &Marcher, quality: &OrdersQuality) -> Values {
 /// profiles stay the same.
 fn marcher(columns: &Mutex<Option<(Shape, ColumnTable)>>, model: &Model) -> Result<Marcher, ScatteringError> {
     let coefficients = model.coefficients()?;
-    let shape = (model.planet_radius_m, model.top_altitude_m, model.media.each_ref().map(|medium| medium.profile));
+    let profiles = [AIR, AEROSOL, OZONE].map(|medium| model.media[medium].profile);
+    let shape = (model.planet_radius_m, model.top_altitude_m, profiles);
     // Another thread's panic leaves whole values behind: they are replaced, never changed.
     let kept = columns.lock().unwrap_or_else(PoisonError::into_inner).clone();
     let columns_here = match kept {
@@ -147,7 +149,8 @@ fn marcher(columns: &Mutex<Option<(Shape, ColumnTable)>>, model: &Model) -> Resu
             table
         }
     };
-    Ok(Marcher { atmosphere: model.clone(), coefficients, columns: columns_here, panels: PANELS })
+    let columns = columns_here.with_haze_of(model);
+    Ok(Marcher { atmosphere: model.clone(), coefficients, columns, panels: PANELS })
 }
 
 #[cfg(test)]

@@ -80,6 +80,7 @@ impl SkyRenderer {
             ("sky_view", tables.view.as_entire_binding()),
             ("sky_view_air", tables.sky_view_air.as_binding()),
             ("sky_view_aerosol", tables.sky_view_aerosol.as_binding()),
+            ("sky_view_haze", tables.sky_view_haze.as_binding()),
             ("sky_view_diffuse", tables.sky_view_diffuse.as_binding()),
         ];
         let sky = match mode {

@@ -32,6 +32,8 @@ pub struct SkyTables {
     pub(super) irradiance: Texture,
     pub(super) sky_view_air: Texture,
     pub(super) sky_view_aerosol: Texture,
+    /// Small and unused without haze.
+    pub(super) sky_view_haze: Texture,
     pub(super) sky_view_diffuse: Texture,
     pub(super) night: Night,
     filled_for: Option<(Inputs, [u32; 8])>,
@@ -62,6 +64,7 @@ impl SkyTables {
             irradiance: table(gpu, "irradiance table", [small(IRRADIANCE_TABLE_SIZE), IRRADIANCE_ROWS])?,
             sky_view_air: table(gpu, "sky-view table, air", [8, 8])?,
             sky_view_aerosol: table(gpu, "sky-view table, aerosol", [8, 8])?,
+            sky_view_haze: table(gpu, "sky-view table, haze", [8, 8])?,
             sky_view_diffuse: table(gpu, "sky-view table, diffuse", [8, 8])?,
             night: Night::new(gpu)?,
             filled_for: None,
@@ -105,7 +108,7 @@ impl SkyTables {
             self.record_irradiance(gpu, encoder, timer)?;
         }
         if !(same_orders && filled == Some((inputs, key))) {
-            self.resize(gpu, &view)?;
+            self.resize(gpu, &view, atmosphere.haze_strongest > 0.0)?;
             self.record_sky_view(gpu, encoder, timer)?;
         }
         self.filled_for = Some((inputs, key));
@@ -113,10 +116,14 @@ impl SkyTables {
         Ok(())
     }
 
-    fn resize(&mut self, gpu: &Gpu, view: &SkyView) -> Result<(), RenderError> {
+    fn resize(&mut self, gpu: &Gpu, view: &SkyView, hazy: bool) -> Result<(), RenderError> {
         if self.sky_view_air.size_px() != view.table_size {
             self.sky_view_air = table(gpu, "sky-view table, air", view.table_size)?;
             self.sky_view_aerosol = table(gpu, "sky-view table, aerosol", view.table_size)?;
+        }
+        let haze_size = if hazy { view.table_size } else { [8, 8] };
+        if self.sky_view_haze.size_px() != haze_size {
+            self.sky_view_haze = table(gpu, "sky-view table, haze", haze_size)?;
         }
         if self.sky_view_diffuse.size_px() != view.diffuse_size() {
             self.sky_view_diffuse = table(gpu, "sky-view table, diffuse", view.diffuse_size())?;
@@ -193,6 +200,7 @@ impl SkyTables {
                 ("sky_view", self.view.as_entire_binding()),
                 ("sky_view_air_texels", self.sky_view_air.as_binding()),
                 ("sky_view_aerosol_texels", self.sky_view_aerosol.as_binding()),
+                ("sky_view_haze_texels", self.sky_view_haze.as_binding()),
             ],
         )?;
         let [width, height] = self.sky_view_air.size_px();
@@ -226,10 +234,10 @@ impl SkyTables {
         &self.irradiance
     }
 
-    /// The sky-view table's textures, air and aerosol, for tests.
+    /// The sky-view table's textures, air, aerosol and haze, for tests. That of the haze is small and unused without.
     #[must_use]
-    pub fn sky_view(&self) -> [&Texture; 2] {
-        [&self.sky_view_air, &self.sky_view_aerosol]
+    pub fn sky_view(&self) -> [&Texture; 3] {
+        [&self.sky_view_air, &self.sky_view_aerosol, &self.sky_view_haze]
     }
 
     /// The diffuse part of the sky-view table, for tests.

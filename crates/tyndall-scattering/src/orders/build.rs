@@ -17,7 +17,6 @@ use super::field::{DARK, Field, Light, add_scaled};
 use super::media::ScatteringMedia;
 use super::nodes::Nodes;
 use super::path::{GroundEnd, Path, narrow, widen};
-use crate::atmosphere::{AEROSOL, AIR};
 use crate::geometry::{Ray, horizon_mu, mu_along};
 use crate::march::Marcher;
 use crate::single_scattering::ray_end;
@@ -87,9 +86,9 @@ impl<'a> OrderLoop<'a> {
 
     fn single(&self, coarse: &Marcher, path: &Path, ray: &Ray) -> Light {
         let parts = coarse.scattered_parts(ray);
-        let phases = [AIR, AEROSOL].map(|medium| self.marcher.atmosphere.media[medium].phase.value(ray.nu));
+        let phases = self.marcher.atmosphere.phases(ray.nu);
         let mut light = narrow(std::array::from_fn::<f64, WAVELENGTH_COUNT, _>(|k| {
-            phases[AIR] * parts[AIR][k] + phases[AEROSOL] * parts[AEROSOL][k]
+            phases.iter().zip(&parts).map(|(phase, part)| phase * part[k]).sum()
         }));
         if let Some(end) = path.ground {
             let mu_sun = self.mu_sun_at_ground(ray, &end);

@@ -4,9 +4,9 @@ use super::basis::MAX_DEGREE;
 use super::field::Light;
 use super::moments::phase_moments;
 use crate::Atmosphere;
-use crate::atmosphere::{AEROSOL, AIR, SCATTERER_COUNT};
+use crate::atmosphere::{SCATTERER_COUNT, SCATTERERS};
 
-/// Scattering coefficients and moments of the phase functions of air and aerosol.
+/// Scattering coefficients and moments of the phase functions of the media that scatter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScatteringMedia {
     /// Scattering coefficient at density 1 (1/m).
@@ -23,8 +23,8 @@ impl ScatteringMedia {
         let medium = |index: usize| &atmosphere.media[index];
         let scattering = |index: usize, k: usize| medium(index).scattering_per_m.get(k).copied().unwrap_or(0.0) as f32;
         Self {
-            scattering_per_m: [AIR, AEROSOL].map(|index| std::array::from_fn(|k| scattering(index, k))),
-            moments: [AIR, AEROSOL].map(|index| phase_moments(medium(index).phase).map(|chi| chi as f32)),
+            scattering_per_m: SCATTERERS.map(|index| std::array::from_fn(|k| scattering(index, k))),
+            moments: SCATTERERS.map(|index| phase_moments(medium(index).phase).map(|chi| chi as f32)),
         }
     }
 }

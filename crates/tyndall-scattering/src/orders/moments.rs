@@ -18,7 +18,7 @@ pub fn phase_moments(phase: Phase) -> [f64; MAX_DEGREE + 1] {
     match phase {
         // 3/4 (1 + mu^2) = 1 + 1/2 P_2.
         Phase::Rayleigh => [1.0, 0.0, 0.1, 0.0, 0.0],
-        Phase::CornetteShanks { .. } | Phase::HenyeyGreenstein { .. } => {
+        Phase::CornetteShanks { .. } | Phase::HenyeyGreenstein { .. } | Phase::DoubleHenyeyGreenstein { .. } => {
             std::array::from_fn(|l| 2.0 * PI * (half(phase, l, 1.0) + half(phase, l, -1.0)))
         }
     }

@@ -6,7 +6,7 @@ use super::basis::{MAX_DEGREE, azimuth_parts, zenith_parts};
 use super::field::{DARK, Field, Light, ScatteringPlace, add_scaled};
 use super::media::ScatteringMedia;
 use super::nodes::{Nodes, Place};
-use crate::atmosphere::{AEROSOL, AIR, MEDIUM_COUNT};
+use crate::atmosphere::{MEDIUM_COUNT, SCATTERER_COUNT, SCATTERERS};
 use crate::geometry::{Ray, altitude_along, mu_along};
 use crate::march::{Marcher, PathMap};
 use crate::optical_length::Columns;
@@ -81,7 +81,7 @@ impl Path {
                 std::array::from_fn(|m| columns[m] + (0..4).map(|j| RUNNING[i][j] * steps[j][m]).sum::<f64>());
             let transmittance = marcher.coefficients.transmittance(&view);
             let mu = mu_along(self.radius_m, self.h_m, mu, 1.0, t_m, altitude_m);
-            let steps = [AIR, AEROSOL].map(|medium| WEIGHTS[i] * steps[i][medium]);
+            let steps = SCATTERERS.map(|medium| WEIGHTS[i] * steps[i][medium]);
             let scattering = ScatteringPlace {
                 altitude: field.nodes.altitude_place(altitude_m),
                 zenith: narrow(zenith_parts(mu, field.degree)),
@@ -146,12 +146,16 @@ fn add_azimuths(sum: &mut Light, parts: &[Light; MAX_DEGREE + 1], azimuth: &[f64
 
 /// Sum over media of `chi_l` times scattering coefficient, steps (m) of density 1 and transmittance, for each degree l.
 #[expect(clippy::cast_possible_truncation, reason = "tables are f32")]
-fn degree_weights(media: &ScatteringMedia, steps_m: [f64; 2], transmittance: &Spectrum) -> [Light; MAX_DEGREE + 1] {
+fn degree_weights(
+    media: &ScatteringMedia,
+    steps_m: [f64; SCATTERER_COUNT],
+    transmittance: &Spectrum,
+) -> [Light; MAX_DEGREE + 1] {
     std::array::from_fn(|l| {
         std::array::from_fn(|k| {
             let scattered =
                 |medium: usize| media.moments[medium][l] * media.scattering_per_m[medium][k] * steps_m[medium] as f32;
-            (scattered(AIR) + scattered(AEROSOL)) * transmittance[k] as f32
+            (0..SCATTERER_COUNT).map(scattered).sum::<f32>() * transmittance[k] as f32
         })
     })
 }

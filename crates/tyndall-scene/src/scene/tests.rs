@@ -29,7 +29,7 @@ fn every_parameter_is_read_and_set_by_its_path() {
 fn both_lists_of_groups_have_the_same_names_in_the_same_order() {
     let mut scene = Scene::default();
     let names = scene.groups().map(|(name, _)| name);
-    assert_eq!(names, ["camera", "sun", "atmosphere", "ground", "sky", "film", "image"], "as in scene files");
+    assert_eq!(names, ["camera", "sun", "atmosphere", "haze", "ground", "sky", "film", "image"], "as in scene files");
     assert_eq!(scene.groups_mut().map(|(name, _)| name), names, "mutable");
 }
 
@@ -115,4 +115,14 @@ fn choices_travel_as_names_and_toggles_as_words() {
     scene.set_text("sun.disc", "off").unwrap();
     let found = (scene.sun.position, scene.film.tone_map, scene.sun.disc);
     assert_eq!(found, (SunPosition::Date, ToneMap::Aces, false), "{found:?}");
+}
+
+#[test]
+fn the_thickest_haze_ends_below_the_lowest_top_of_an_atmosphere() {
+    let largest = |path: &str| *Scene::default().info(path).expect("a parameter").range.end();
+    let lowest_top_m = 1e3 * *Scene::default().info("atmosphere.top_altitude_km").expect("a parameter").range.start();
+    let above_m = lowest_top_m - largest("haze.top_m");
+    let left = (-above_m / largest("haze.scale_height_m")).exp();
+    // The light transport ends every medium there.
+    assert!(left < 0.01, "{left}");
 }
