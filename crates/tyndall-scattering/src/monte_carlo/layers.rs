@@ -138,10 +138,17 @@ impl Layers {
     }
 }
 
+/// Levels of an even layer in shares of its height: its light changes where its density does not.
+const EVEN_LEVELS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
 /// Altitudes (m) that a profile wants as levels.
 fn levels_m(profile: Profile) -> Vec<f64> {
     match profile {
         Profile::Exponential { scale_height_m } => EXPONENTIAL_LEVELS.map(|level| level * scale_height_m).to_vec(),
+        Profile::Layer { top_m, scale_height_m } => {
+            let above = EXPONENTIAL_LEVELS.map(|level| top_m + level * scale_height_m);
+            EVEN_LEVELS.map(|level| level * top_m).into_iter().chain(above).collect()
+        }
         Profile::Tent { centre_m, half_width_m } => vec![centre_m - half_width_m, centre_m, centre_m + half_width_m],
     }
 }

@@ -1,6 +1,6 @@
 //! Random scattering angles.
 
-use crate::phase::{Phase, phase_henyey_greenstein, phase_rayleigh};
+use crate::phase::{Phase, phase_double_henyey_greenstein, phase_henyey_greenstein, phase_rayleigh};
 
 /// Lobes narrower than this are sampled as if they were isotropic, where the inversion divides by g.
 const ISOTROPIC_G: f64 = 1e-4;
@@ -15,6 +15,13 @@ pub(super) fn sample_cosine(phase: Phase, unit: f64) -> f64 {
             (root - 1.0 / root).clamp(-1.0, 1.0)
         }
         Phase::CornetteShanks { g } | Phase::HenyeyGreenstein { g } => sample_henyey_greenstein(g, unit),
+        // The random number first chooses the lobe; what is left of it is random again.
+        Phase::DoubleHenyeyGreenstein { g: [forward, _], forward_weight } if unit < forward_weight => {
+            sample_henyey_greenstein(forward, unit / forward_weight)
+        }
+        Phase::DoubleHenyeyGreenstein { g: [_, backward], forward_weight } => {
+            sample_henyey_greenstein(backward, (unit - forward_weight) / (1.0 - forward_weight).max(f64::MIN_POSITIVE))
+        }
     }
 }
 
@@ -24,6 +31,9 @@ pub(super) fn scattering_pdf(phase: Phase, cosine: f64) -> f64 {
     match phase {
         Phase::Rayleigh => phase_rayleigh(cosine),
         Phase::CornetteShanks { g } | Phase::HenyeyGreenstein { g } => phase_henyey_greenstein(cosine, g),
+        Phase::DoubleHenyeyGreenstein { g, forward_weight } => {
+            phase_double_henyey_greenstein(cosine, g, forward_weight)
+        }
     }
 }
 
@@ -53,5 +63,16 @@ mod tests {
                 assert!((below - unit).abs() < 1e-6, "{phase:?} {unit}: {below}");
             }
         }
+    }
+
+    #[test]
+    fn two_lobes_are_sampled_in_their_shares() {
+        let (g, forward_weight, count) = ([0.8, -0.3], 0.9, 20_000);
+        let phase = Phase::DoubleHenyeyGreenstein { g, forward_weight };
+        let cosines = (0..count).map(|i| sample_cosine(phase, (f64::from(i) + 0.5) / f64::from(count)));
+        let mean = cosines.sum::<f64>() / f64::from(count);
+        let want = forward_weight * g[0] + (1.0 - forward_weight) * g[1];
+        assert!((mean - want).abs() < 1e-4, "{mean} {want}");
+        assert!((scattering_pdf(phase, 0.2) - phase.value(0.2)).abs() < 1e-15, "the density is the phase function");
     }
 }
