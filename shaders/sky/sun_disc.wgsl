@@ -46,7 +46,7 @@ fn sun_disc_radiance(plane: vec2<f32>) -> vec3<f32> {
     }
     // Pixels at the poles of a panorama are narrow: fewer samples across.
     let across = SUN_SAMPLES_ACROSS_DISC * frame_pixel_extent(plane) / (2.0 * radius);
-    let samples = clamp(vec2<u32>(ceil(across)), vec2<u32>(2u), vec2<u32>(SUN_SAMPLES_MAX));
+    let samples = clamp(vec2<u32>(ceil(across)), vec2<u32>(4u), vec2<u32>(SUN_SAMPLES_MAX));
     let chord = 2.0 * sin(0.5 * radius);
     var sum = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
     var weights = 0.0;
@@ -54,7 +54,9 @@ fn sun_disc_radiance(plane: vec2<f32>) -> vec3<f32> {
     var on_disc = vec2<f32>(1e-20, 1e-20 * centre.z);
     for (var y = 0u; y < samples.y; y++) { // loops: SUN_SAMPLES_MAX
         for (var x = 0u; x < samples.x; x++) { // loops: SUN_SAMPLES_MAX
-            let offset = (vec2<f32>(f32(x), f32(y)) + 0.5) / vec2<f32>(samples) - 0.5;
+            // Each column lies a little higher than the one before, or a limb along the rows would count whole rows.
+            let column = (f32(x) + 0.5) / f32(samples.x);
+            let offset = vec2<f32>(column, (f32(y) + column) / f32(samples.y)) - 0.5;
             let point = plane + offset * frame_pixel_size();
             let direction = frame_direction(point);
             let apart = refraction_true(direction) - sky_view.sun_direction;

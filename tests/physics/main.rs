@@ -6,6 +6,7 @@ mod dome;
 mod gpu_orders;
 mod gpu_tables;
 mod laws;
+mod panorama;
 mod pictures;
 mod random_walks;
 mod reference_data;

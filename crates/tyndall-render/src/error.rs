@@ -24,4 +24,13 @@ pub enum RenderError {
         /// Configuration of the renderer.
         renderer: crate::RendererConfig,
     },
+    /// A panorama of a width that cannot be.
+    #[error(
+        "a panorama of {width_px} px is not possible: its width must be an even number of at least {} px",
+        crate::environment::PANORAMA_WIDTH_MIN_PX
+    )]
+    PanoramaWidth {
+        /// The width.
+        width_px: u32,
+    },
 }

@@ -13,6 +13,7 @@
 
 pub mod develop;
 pub mod dither;
+pub mod environment;
 mod error;
 pub mod exposure;
 pub mod frame;

@@ -153,6 +153,12 @@ impl Renderer {
         Ok(ev100_from_gain(gain))
     }
 
+    /// Precision of frames and pictures.
+    #[must_use]
+    pub fn config(&self) -> RendererConfig {
+        self.config
+    }
+
     /// The sky's tables, for tests and plots.
     #[must_use]
     pub fn tables(&self) -> &SkyTables {

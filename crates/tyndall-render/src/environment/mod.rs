@@ -1,0 +1,134 @@
+//! The light from everywhere around the camera, for other programs: panorama and sun.
+//!
+//! [`Renderer::capture_environment`] draws the panorama: with the same shaders as a picture, pixel by pixel, where the scene
+//! is sky and ground alone; from the six faces of a cube ([`cube`]) where things stand in it that only rasterization
+//! draws, and for the paper's dome. [`SunLight`] is the light of the sun's disc alone, for a lamp in place of the disc.
+//! [`LightUnit`] says in which unit other programs want the numbers.
+//!
+//! Accuracy: the disc in a panorama holds the sun's light within 0.5 % at any width; a panorama from a cube differs from
+//! a direct one by less than 1 % of the light of a pixel away from edges. Not done: panoramas beyond a device's largest
+//! texture.
+
+pub mod cube;
+mod sun_light;
+mod unit;
+
+use tyndall_gpu::Gpu;
+use tyndall_scene::{Scene, SkyMode};
+
+pub use sun_light::SunLight;
+pub use unit::{BLENDER_LUMENS_PER_WATT, LightUnit};
+
+use crate::{FrameTarget, RenderError, Renderer, SKY_DEPTH_M, View};
+
+/// Width (px) of the frame of the scene's camera that meters the exposure.
+const METER_WIDTH_PX: u32 = 192;
+
+/// Narrowest panorama: four pixels around, two from the zenith to the nadir.
+pub const PANORAMA_WIDTH_MIN_PX: u32 = 4;
+
+/// What lies below the horizon of a panorama.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GroundLight {
+    /// The ground as the sun and the sky light it.
+    #[default]
+    True,
+    /// Nothing: for scenes that bring a ground of their own.
+    Black,
+}
+
+/// What a panorama is to show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EnvironmentOptions {
+    /// Columns; half as many rows. An even number.
+    pub width_px: u32,
+    /// Whether the sun's disc is drawn, if the scene draws it.
+    pub disc: bool,
+    /// What lies below the horizon.
+    pub ground: GroundLight,
+}
+
+impl EnvironmentOptions {
+    /// Columns and rows.
+    ///
+    /// # Errors
+    /// When the width is odd or below [`PANORAMA_WIDTH_MIN_PX`].
+    pub fn size_px(self) -> Result<[u32; 2], RenderError> {
+        if self.width_px < PANORAMA_WIDTH_MIN_PX || !self.width_px.is_multiple_of(2) {
+            return Err(RenderError::PanoramaWidth { width_px: self.width_px });
+        }
+        Ok([self.width_px, self.width_px / 2])
+    }
+}
+
+/// The light around a camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    /// Columns and rows.
+    pub size_px: [u32; 2],
+    /// Radiance, linear Rec.709 with luminance in cd/m^2, and 1; laid out as [`View::Panorama`] says.
+    pub rgba: Vec<[f32; 4]>,
+    /// Exposure value at ISO 100 of the scene's own picture, metered or manual.
+    pub ev100: f64,
+    /// The sun's light at the camera; `None` when no part of its disc is above the horizon.
+    pub sun: Option<SunLight>,
+}
+
+impl Renderer {
+    /// Draws the light from everywhere around the scene's camera. The renderer must draw 32-bit frames if the disc is to
+    /// keep its energy.
+    ///
+    /// # Errors
+    /// When the width is odd or below [`PANORAMA_WIDTH_MIN_PX`], and as [`Renderer::render`].
+    pub fn capture_environment(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        options: EnvironmentOptions,
+    ) -> Result<Environment, RenderError> {
+        let size_px = options.size_px()?;
+        let sun = SunLight::new(scene)?;
+        let ev100 = self.meter_scene(gpu, scene)?;
+        let mut scene = scene.clone();
+        scene.sun.disc &= options.disc;
+        let rgba = if is_rasterized(&scene) {
+            cube::panorama(self, gpu, &scene, size_px, options.ground)?
+        } else {
+            let mut target = FrameTarget::new(gpu, size_px, self.config())?;
+            self.render_view(gpu, &scene, View::Panorama, &mut target)?;
+            read_light(gpu, &target, options.ground)?
+        };
+        Ok(Environment { size_px, rgba, ev100, sun })
+    }
+
+    /// Exposure value at ISO 100 of the picture of the scene's camera, from a small frame of it.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn meter_scene(&mut self, gpu: &Gpu, scene: &Scene) -> Result<f64, RenderError> {
+        let shape = f64::from(scene.image.height_px) / f64::from(scene.image.width_px);
+        #[expect(clippy::cast_possible_truncation, reason = "clamped to small sizes")]
+        let height_px = (f64::from(METER_WIDTH_PX) * shape).round().clamp(1.0, 1024.0) as u32;
+        let mut target = FrameTarget::new(gpu, [METER_WIDTH_PX, height_px], self.config())?;
+        self.render(gpu, scene, &mut target)?;
+        self.read_ev100(gpu)
+    }
+}
+
+/// Whether a panorama cannot be drawn pixel by pixel, because something stands in the scene as triangles.
+fn is_rasterized(scene: &Scene) -> bool {
+    scene.sky.mode == SkyMode::VertexDome
+}
+
+/// Radiance of a target (cd/m^2), black where the ground is if so wanted.
+fn read_light(gpu: &Gpu, target: &FrameTarget, ground: GroundLight) -> Result<Vec<[f32; 4]>, RenderError> {
+    let mut rgba = target.read_radiance(gpu)?;
+    if ground == GroundLight::Black {
+        for (pixel, depth_m) in rgba.iter_mut().zip(target.read_depth_m(gpu)?) {
+            if depth_m < SKY_DEPTH_M {
+                *pixel = [0.0, 0.0, 0.0, 1.0];
+            }
+        }
+    }
+    Ok(rgba)
+}
