@@ -11,6 +11,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tyndall-assets", &[]),
     ("tyndall-scattering", &["tyndall-core"]),
     ("tyndall-clouds", &["tyndall-core"]),
+    ("tyndall-dunes", &["tyndall-core"]),
     ("tyndall-io", &["tyndall-core"]),
     ("tyndall-scene", &["tyndall-core", "tyndall-scattering", "tyndall-assets"]),
     ("tyndall-gpu", &["tyndall-shaders", "tyndall-core"]),

@@ -6,8 +6,16 @@ use crate::graph::Graph;
 const GRAPHICS: [&str; 8] = ["wgpu", "wgpu-core", "wgpu-hal", "wgpu-types", "naga", "winit", "egui", "eframe"];
 
 /// Crates that compute without any of them.
-const WITHOUT_GRAPHICS: [&str; 7] =
-    ["tyndall-core", "tyndall-scattering", "tyndall-clouds", "tyndall-scene", "tyndall-io", "tyndall-shaders", "xtask"];
+const WITHOUT_GRAPHICS: [&str; 8] = [
+    "tyndall-core",
+    "tyndall-scattering",
+    "tyndall-clouds",
+    "tyndall-dunes",
+    "tyndall-scene",
+    "tyndall-io",
+    "tyndall-shaders",
+    "xtask",
+];
 
 /// User interface, which the app alone knows.
 const INTERFACE: [&str; 6] = ["egui", "eframe", "egui-wgpu", "egui-winit", "winit", "rfd"];

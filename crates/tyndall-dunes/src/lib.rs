@@ -1,0 +1,35 @@
+//! Dunes and wind ripples that form under the wind, after section 5 of Nishita & Dobashi and beyond it.
+//!
+//! - [`ripples`]: the ripple automaton of Nishimori and Ouchi 1993, and its linear theory.
+//! - [`measure`]: wavelength, slopes, crests, separate heaps.
+//! - [`shadow`]: the wind shadow behind crests.
+//!
+//! Every decision is made in 32-bit integers on random words that are pure functions of (seed, step, cell), so a seed
+//! gives the same desert on any number of threads, on every system, and in a shader that follows the same lines. Mass is
+//! kept to the quantum. Lengths are in cells, x points east, y north, angles are anticlockwise from +x and say where the
+//! wind blows to.
+
+#![expect(clippy::inline_always, reason = "vector instructions chosen at run time reach only what is inlined")]
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "integers are the matter of this crate: sides are below 2^13, beds below 2^26 cells, and parameters are checked against ranges that keep every product within 32 bits"
+)]
+
+mod deposits;
+pub mod direction;
+pub mod edges;
+mod error;
+pub mod hash;
+pub mod lattice;
+pub mod measure;
+pub mod ripples;
+pub mod shadow;
+mod side;
+mod simulation;
+
+pub use edges::Edges;
+pub use error::DuneError;
+pub use lattice::Lattice;
+pub use side::Side;
+pub use simulation::{SandSimulation, StateHash};
