@@ -10,6 +10,7 @@
 
 pub mod grid;
 pub mod metaball;
+pub mod observer;
 pub mod params;
 pub mod rng;
 pub mod spectrum;

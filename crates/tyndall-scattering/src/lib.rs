@@ -43,6 +43,7 @@ pub mod sky_diffuse_table;
 pub mod sky_view_map;
 pub mod sky_view_table;
 pub mod sun_disc;
+pub mod table_sky;
 mod texel;
 
 pub use atmosphere::Atmosphere;

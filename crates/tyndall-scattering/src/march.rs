@@ -59,6 +59,16 @@ impl Marcher {
         sum.parts
     }
 
+    /// Irradiance of the sun on horizontal ground at sea level (W/m^2/nm); none while its centre is below the horizon.
+    #[must_use]
+    pub fn sun_on_ground(&self, mu_sun: f64) -> Spectrum {
+        if mu_sun <= 0.0 {
+            return [0.0; WAVELENGTH_COUNT];
+        }
+        let transmittance = self.coefficients.transmittance(&self.columns.lookup(0.0, mu_sun));
+        std::array::from_fn(|k| transmittance[k] * mu_sun * self.coefficients.solar_irradiance_w_m2_nm[k])
+    }
+
     fn add_panel(&self, ray: &Ray, path: &PathMap, (x0, width): (f64, f64), lit: bool, sum: &mut Sum) {
         let radius_m = self.atmosphere.planet_radius_m;
         let nodes = NODES.map(|node| {

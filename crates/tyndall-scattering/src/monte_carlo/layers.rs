@@ -49,7 +49,7 @@ impl Layers {
         let mut altitudes_m: Vec<f64> = media.iter().flat_map(|medium| levels_m(medium.profile)).collect();
         altitudes_m.retain(|altitude_m| 0.0 < *altitude_m && *altitude_m < atmosphere.top_altitude_m);
         altitudes_m.sort_by(f64::total_cmp);
-        altitudes_m.dedup_by(|next, before| *next - *before < 0.02 * *before);
+        altitudes_m.dedup_by(|next, before| *next - *before < 0.002 * *before);
         let radius_m = atmosphere.planet_radius_m;
         let levels_m2 = altitudes_m.into_iter().map(|a| a * (2.0 * radius_m + a)).collect();
         Self { radius_m, media, levels_m2 }

@@ -92,12 +92,8 @@ impl<'a> OrderLoop<'a> {
         }));
         if let Some(end) = path.ground {
             let mu_sun = self.mu_sun_at_ground(ray, &end);
-            if mu_sun > 0.0 {
-                let coefficients = &self.marcher.coefficients;
-                let sun = coefficients.transmittance(&self.marcher.columns.lookup(0.0, mu_sun));
-                let irradiance = std::array::from_fn(|k| sun[k] * mu_sun * coefficients.solar_irradiance_w_m2_nm[k]);
-                add_scaled(&mut light, &self.reflected(&end, &narrow(irradiance)), 1.0);
-            }
+            let irradiance = self.marcher.sun_on_ground(mu_sun);
+            add_scaled(&mut light, &self.reflected(&end, &narrow(irradiance)), 1.0);
         }
         light
     }

@@ -24,4 +24,4 @@ mod tests;
 
 pub use field::Field;
 pub use quality::OrdersQuality;
-pub use source::{SourceTable, diffuse_radiance, diffuse_scattered};
+pub use source::{SourceTable, diffuse_radiance, diffuse_scattered, radiance_by_order};

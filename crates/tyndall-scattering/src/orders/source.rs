@@ -69,6 +69,29 @@ pub fn diffuse_scattered(marcher: &Marcher, source: &SourceTable, ray: &Ray, end
     widen(&path.gather_once(&source.all, ray))
 }
 
+/// Radiance (W/m^2/sr/nm) by the tables: what was scattered or reflected once, and all else. The ray starts inside the
+/// atmosphere and ends at `end`; ground there is seen in the light of sun and sky.
+#[must_use]
+pub fn radiance_by_order(marcher: &Marcher, source: &SourceTable, ray: &Ray, end: RayEnd) -> [Spectrum; 2] {
+    let parts = marcher.scattered_parts_to(ray, end.length_m);
+    let phases = marcher.atmosphere.phases(ray.nu);
+    let path = Path::new(marcher, &source.media, &source.all, (ray.h_m, ray.mu, end), marcher.panels);
+    let mut first: Spectrum =
+        std::array::from_fn(|k| parts.iter().zip(phases).map(|(part, phase)| phase * part[k]).sum());
+    let mut beyond = widen(&path.gather_once(&source.all, ray));
+    if let Some(end) = path.ground {
+        let radius_m = marcher.atmosphere.planet_radius_m;
+        let mu_sun = mu_along(radius_m, ray.h_m, ray.mu_sun, ray.nu, end.length_m, 0.0);
+        let (sun, sky) = (marcher.sun_on_ground(mu_sun), source.irradiance(mu_sun));
+        for k in 0..WAVELENGTH_COUNT {
+            let reflected = marcher.coefficients.ground_albedo[k] / PI * end.transmittance[k];
+            first[k] += reflected * sun[k];
+            beyond[k] += reflected * sky[k];
+        }
+    }
+    [first, beyond]
+}
+
 /// Radiance (W/m^2/sr/nm) of everything that [`crate::single_scattering::single_scattering`] leaves out: diffuse light
 /// scattered into the ray, and diffuse light that the ground reflects behind the air in front of it. The sum of the two
 /// is the radiance by all orders.
