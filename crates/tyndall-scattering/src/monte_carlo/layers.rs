@@ -172,7 +172,8 @@ mod tests {
                 distance_to_ground(radius_m, h_m, mu).unwrap_or_else(|| distance_to_top(radius_m, top_m, h_m, mu));
             let want = columns_along(&atmosphere, h_m, mu, length_m);
             let got = layers.columns(&layers.line(h_m, mu), length_m);
-            for (medium, (got, want)) in got.into_iter().zip(want).enumerate() {
+            // The haze is absent.
+            for (medium, (got, want)) in got.into_iter().zip(want).take(layers.media.len()).enumerate() {
                 // The fine quadrature has 2e-4 at the kinks of the ozone's tent.
                 let allowed = if medium == 2 { 4e-4 } else { 5e-5 };
                 assert!((got - want).abs() <= allowed * want + 1e-6, "{h_m} {mu} medium {medium}: {got} {want}");
