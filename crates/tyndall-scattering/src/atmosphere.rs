@@ -250,8 +250,7 @@ mod tests {
         assert!((aerosol_at_550 - 0.1).abs() < 1e-9, "{aerosol_at_550}");
         let want = 300.0 * MOLECULES_PER_M2_PER_DOBSON_UNIT * ozone_cross_section_m2(618.0);
         let ozone = zenith_optical_depth(&atmosphere, OZONE, 5);
-        // The tent has kinks, where quadrature loses its order.
-        assert!((ozone / want - 1.0).abs() < 2e-4, "{ozone} {want}");
+        assert!((ozone / want - 1.0).abs() < 1e-9, "{ozone} {want}");
     }
 
     #[test]

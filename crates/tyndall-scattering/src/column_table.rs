@@ -6,7 +6,7 @@
 //! ln (column / density at the observer), Chapman's function, which varies slowly where the column itself falls by e each
 //! scale height; ozone as it is. Haze has a closed form ([`crate::layer_column`]) and no place in the table.
 //!
-//! Exact: [`columns_to_top`]; table: [`ColumnTable::new`]; lookup: [`ColumnTable::lookup`]. WGSL: `shaders/sky/column_*`.
+//! Exact: [`crate::optical_length::columns_to_top`]; table: [`ColumnTable::new`]; lookup: [`ColumnTable::lookup`]. WGSL: `shaders/sky/column_*`.
 
 use rayon::prelude::*;
 use tyndall_core::grid::Grid2;
@@ -15,7 +15,8 @@ use crate::Atmosphere;
 use crate::atmosphere::{AEROSOL, AIR, OZONE};
 use crate::geometry::{distance_to_top, horizon_mu};
 use crate::layer_column::HazeLayer;
-use crate::optical_length::{Columns, columns_to_top};
+use crate::medium::Profile;
+use crate::optical_length::{Columns, clear_columns_to_top};
 use crate::texel::Texel;
 
 /// Texels of the table: distances, altitudes.
@@ -29,7 +30,8 @@ const SMALLEST_COLUMN_M: f64 = 1e-300;
 pub struct ColumnTable {
     planet_radius_m: f64,
     top_altitude_m: f64,
-    scale_heights_m: [f64; 2],
+    /// Density profiles of air and aerosol.
+    profiles: [Profile; 2],
     /// ln (air / density), ln (aerosol / density), ozone.
     cells: Grid2<Texel<STORED_COUNT>>,
     haze: Option<HazeLayer>,
@@ -43,18 +45,20 @@ impl ColumnTable {
     #[must_use]
     pub fn new(atmosphere: &Atmosphere) -> Self {
         let (planet_radius_m, top_altitude_m) = (atmosphere.planet_radius_m, atmosphere.top_altitude_m);
-        let scale_heights_m = [AIR, AEROSOL].map(|medium| atmosphere.media[medium].profile.vertical_column_m());
+        let profiles = [AIR, AEROSOL].map(|medium| atmosphere.media[medium].profile);
         let texel = |index: usize| {
             let (x, y) = (index % COLUMN_TABLE_SIZE[0], index / COLUMN_TABLE_SIZE[0]);
             let unit = |i: usize, axis: usize| i as f64 / (COLUMN_TABLE_SIZE[axis] - 1) as f64;
             let (h_m, mu) = column_map_inverse(planet_radius_m, top_altitude_m, [unit(x, 0), unit(y, 1)]);
-            let columns = columns_to_top(atmosphere, h_m, mu);
-            let relative = |medium: usize| columns[medium].max(SMALLEST_COLUMN_M).ln() + h_m / scale_heights_m[medium];
-            Texel([relative(AIR), relative(AEROSOL), columns[OZONE]])
+            let columns = clear_columns_to_top(atmosphere, h_m, mu);
+            let relative =
+                |profile: &Profile, column_m: f64| column_m.max(SMALLEST_COLUMN_M).ln() - profile.ln_density(h_m);
+            let [air, aerosol] = &profiles;
+            Texel([relative(air, columns[AIR]), relative(aerosol, columns[AEROSOL]), columns[OZONE]])
         };
         let texels = (0..COLUMN_TABLE_SIZE[0] * COLUMN_TABLE_SIZE[1]).into_par_iter().map(texel).collect();
         let cells = Grid2::from_cells(COLUMN_TABLE_SIZE, texels).expect("one texel per cell");
-        let table = Self { planet_radius_m, top_altitude_m, scale_heights_m, cells, haze: None };
+        let table = Self { planet_radius_m, top_altitude_m, profiles, cells, haze: None };
         table.with_haze_of(atmosphere)
     }
 
@@ -72,9 +76,9 @@ impl ColumnTable {
         let (y0, fy) = texel_below(y, COLUMN_TABLE_SIZE[1]);
         let along = |y: usize| self.cells[[x0, y]] * (1.0 - fx) + self.cells[[x0 + 1, y]] * fx;
         let Texel([air, aerosol, ozone]) = along(y0) * (1.0 - fy) + along(y0 + 1) * fy;
-        let [air_height_m, aerosol_height_m] = self.scale_heights_m;
+        let column = |relative: f64, profile: &Profile| (relative + profile.ln_density(h_m)).exp();
         let haze = self.haze.map_or(0.0, |layer| layer.column(h_m, mu));
-        [(air - h_m / air_height_m).exp(), (aerosol - h_m / aerosol_height_m).exp(), ozone, haze]
+        [column(air, &self.profiles[0]), column(aerosol, &self.profiles[1]), ozone, haze]
     }
 
     /// The stored texels (ln of air and of aerosol over the density at the texel's altitude, ozone), x fastest.
@@ -121,6 +125,7 @@ pub fn column_map_inverse(radius_m: f64, top_m: f64, unit: [f64; 2]) -> (f64, f6
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::optical_length::columns_to_top;
     use crate::params::{AtmosphereParams, GroundParams};
 
     #[test]

@@ -11,6 +11,14 @@ pub enum ScatteringError {
         /// Wavelengths of the tables.
         expected: usize,
     },
+    /// The shaders know fewer profiles than the library.
+    #[error(
+        "the GPU draws exponential air and aerosol and a tent of ozone; this atmosphere's {medium} has another profile"
+    )]
+    ProfileOnGpu {
+        /// The medium.
+        medium: &'static str,
+    },
     /// A line of an atmosphere file cannot be read.
     #[error("line {line}: {message}")]
     AtmosphereFile {

@@ -42,6 +42,23 @@ pub fn distance_to_top(radius_m: f64, top_m: f64, h_m: f64, mu: f64) -> f64 {
     if b > 0.0 { q / (root + b) } else { root - b }
 }
 
+/// The two distances (m) at which the line of a ray passes an altitude, on the way down and on the way up, or `None` where
+/// its lowest point lies higher. Negative distances lie behind the start.
+#[must_use]
+pub fn altitude_crossings(radius_m: f64, h_m: f64, mu: f64, altitude_m: f64) -> Option<[f64; 2]> {
+    let b = (radius_m + h_m) * mu;
+    let q = (h_m - altitude_m) * (2.0 * radius_m + h_m + altitude_m);
+    let discriminant = b * b - q;
+    if discriminant < 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    // Both without cancellation.
+    let down = if b < 0.0 { q / (root - b) } else { -b - root };
+    let up = if b > 0.0 { -q / (root + b) } else { root - b };
+    Some([down, up])
+}
+
 /// Distance (m) to the ground, or `None` when the ray misses it.
 #[must_use]
 pub fn distance_to_ground(radius_m: f64, h_m: f64, mu: f64) -> Option<f64> {
@@ -136,6 +153,18 @@ mod tests {
         }
         let horizontal = ((RADIUS_M + TOP_M).powi(2) - RADIUS_M * RADIUS_M).sqrt();
         assert!((distance_to_top(RADIUS_M, TOP_M, 0.0, 0.0) - horizontal).abs() < 1e-6, "horizontal ray");
+    }
+
+    #[test]
+    fn a_line_passes_an_altitude_where_it_has_that_altitude() {
+        for (h, mu, altitude) in [(2e3, -0.3, 500.0), (2e3, 0.2, 500.0), (2e3, -0.02, 4e3), (0.0, 1.0, 10.0)] {
+            let crossings = altitude_crossings(RADIUS_M, h, mu, altitude).expect("low enough");
+            for t in crossings {
+                assert!((altitude_along(RADIUS_M, h, mu, t) - altitude).abs() < 1e-6, "{h} {mu}: {t}");
+            }
+            assert!(crossings[0] < crossings[1], "down before up: {crossings:?}");
+        }
+        assert!(altitude_crossings(RADIUS_M, 2e3, 0.0, 1e3).is_none(), "a level ray is at its lowest point");
     }
 
     #[test]

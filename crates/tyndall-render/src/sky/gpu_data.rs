@@ -144,16 +144,14 @@ impl Atmosphere {
     /// From the model; sunlight is multiplied by `brightness`.
     ///
     /// # Errors
-    /// When the model does not have the eight wavelengths of the shaders.
+    /// When the model does not have the eight wavelengths of the shaders, or profiles that they do not know.
     #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
     pub fn new(model: &Model, brightness: f64) -> Result<Self, ScatteringError> {
         let coefficients = model.coefficients()?;
         let [red, green, blue] = rec709_from_spectrum_matrix();
         let bright = |spectrum: &Spectrum| narrow(&spectrum.map(|value| value * brightness));
-        let (ozone_altitude_m, ozone_half_width_m) = match model.media[OZONE].profile {
-            Profile::Tent { centre_m, half_width_m } => (centre_m, half_width_m),
-            // No atmosphere of this crate has another ozone; a tent far outside would hold nothing.
-            Profile::Exponential { .. } | Profile::Layer { .. } => (-1e9, 1.0),
+        let Profile::Tent { centre_m, half_width_m } = model.media[OZONE].profile else {
+            return Err(ScatteringError::ProfileOnGpu { medium: "ozone" });
         };
         let (aerosol_phase, aerosol_g) = match model.media[AEROSOL].phase {
             Phase::CornetteShanks { g } => (0, g),
@@ -166,10 +164,10 @@ impl Atmosphere {
         Ok(Self {
             planet_radius_m: model.planet_radius_m as f32,
             top_altitude_m: model.top_altitude_m as f32,
-            air_scale_height_m: model.media[AIR].profile.vertical_column_m() as f32,
-            aerosol_scale_height_m: model.media[AEROSOL].profile.vertical_column_m() as f32,
-            ozone_altitude_m: ozone_altitude_m as f32,
-            ozone_half_width_m: ozone_half_width_m as f32,
+            air_scale_height_m: scale_height_m(model, AIR, "air")? as f32,
+            aerosol_scale_height_m: scale_height_m(model, AEROSOL, "aerosol")? as f32,
+            ozone_altitude_m: centre_m as f32,
+            ozone_half_width_m: half_width_m as f32,
             aerosol_g: aerosol_g as f32,
             aerosol_phase,
             haze_top_m: haze.top_m,
@@ -192,6 +190,14 @@ impl Atmosphere {
             green: narrow(&green),
             blue: narrow(&blue),
         })
+    }
+}
+
+/// Scale height (m) of an exponential medium.
+fn scale_height_m(model: &Model, medium: usize, name: &'static str) -> Result<f64, ScatteringError> {
+    match model.media[medium].profile {
+        Profile::Exponential { scale_height_m } => Ok(scale_height_m),
+        _ => Err(ScatteringError::ProfileOnGpu { medium: name }),
     }
 }
 
