@@ -37,4 +37,14 @@ pub enum ScatteringError {
         /// Values needed.
         expected: usize,
     },
+    /// A number of things to compute is outside its range.
+    #[error("{value} {what}: {} to {} are possible", range[0], range[1])]
+    Count {
+        /// Of what.
+        what: &'static str,
+        /// How many were asked for.
+        value: f64,
+        /// Fewest and most.
+        range: [f64; 2],
+    },
 }

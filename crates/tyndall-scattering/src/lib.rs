@@ -16,6 +16,8 @@
 //!
 //! [`monte_carlo`] computes the same light by random walks, slowly and without any table, to judge everything else.
 //!
+//! [`validate`] puts the two beside each other.
+//!
 //! Not done here: polarisation.
 
 pub mod air;
@@ -45,6 +47,7 @@ pub mod sky_view_table;
 pub mod sun_disc;
 pub mod table_sky;
 mod texel;
+pub mod validate;
 
 pub use atmosphere::Atmosphere;
 pub use error::ScatteringError;
