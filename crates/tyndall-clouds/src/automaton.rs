@@ -114,6 +114,12 @@ impl Automaton {
         self.fields.size()
     }
 
+    /// What lies beyond the sides.
+    #[must_use]
+    pub fn edges(&self) -> Edges {
+        self.edges
+    }
+
     /// Steps made so far.
     #[must_use]
     pub fn step_count(&self) -> u32 {

@@ -1,5 +1,7 @@
 //! What callers of this crate can do wrong.
 
+use tyndall_core::grid::Grid3;
+
 use crate::grid_size::{MAX_CELLS, MAX_HEIGHT_CELLS, MAX_SIDE_CELLS};
 
 /// Refusals of this crate.
@@ -73,6 +75,14 @@ pub enum CloudError {
         /// What is wrong.
         problem: String,
     },
+}
+
+/// Refuses a grid of another size.
+pub(crate) fn same_size<T>(what: &str, grid: &Grid3<T>, size: [usize; 3]) -> Result<(), CloudError> {
+    if grid.size() == size {
+        return Ok(());
+    }
+    Err(CloudError::OtherSize { what: what.to_owned(), found: grid.size().to_vec(), expected: size.to_vec() })
 }
 
 /// `value` when it lies within `low..=high`, which NaN does not.
