@@ -3,7 +3,7 @@
 //! Exposure is manual, because the automatic one evens out what brightness does. Light counts that was scattered once,
 //! except where all orders matter: the tables of the others take seconds on a software adapter.
 
-use tyndall_scene::{ExposureMode, Orders, OrdersDetail, Scene, SkyMode, SunPosition};
+use tyndall_scene::{ExposureMode, LandscapeKind, Orders, OrdersDetail, Scene, SkyMode, SunPosition};
 
 /// A scene and the parameters that are tried in it.
 pub(crate) struct Precondition {
@@ -154,6 +154,29 @@ pub(crate) const ALL: &[Precondition] = &[
         parameters: &[("sky.orders", None), ("sky.orders_detail", None)],
     },
     Precondition {
+        name: "a valley with snow",
+        prepare: |scene| {
+            valley(scene);
+            scene.landscape.snow_line_m = 500.0;
+        },
+        parameters: &[
+            ("landscape.kind", None),
+            ("landscape.seed", None),
+            ("landscape.size_km", None),
+            ("landscape.height_m", None),
+            ("landscape.feature_km", None),
+            ("landscape.snow_line_m", Some(900.0)),
+        ],
+    },
+    Precondition {
+        name: "a city",
+        prepare: |scene| {
+            valley(scene);
+            scene.landscape.kind = LandscapeKind::City;
+        },
+        parameters: &[("landscape.building_m", None)],
+    },
+    Precondition {
         name: "the automatic exposure",
         prepare: |scene| {
             single(scene);
@@ -175,6 +198,15 @@ fn single(scene: &mut Scene) {
 fn manual(scene: &mut Scene) {
     single(scene);
     scene.film.exposure = ExposureMode::Manual;
+}
+
+/// Mountains before a camera that stands on one of them.
+fn valley(scene: &mut Scene) {
+    manual(scene);
+    scene.landscape.kind = LandscapeKind::Valley;
+    scene.camera.altitude_m = 300.0;
+    scene.camera.pitch_deg = 0.0;
+    scene.camera.x_m = 2000.0;
 }
 
 /// High up and looking down a little, so that the squares are larger than pixels.

@@ -6,7 +6,8 @@ use naga::{AddressSpace, Handle, Type, TypeInner};
 use tyndall_gpu::layout::StructLayout;
 use tyndall_gpu::rust_layout;
 use tyndall_render::frame::gpu_data::Frame;
-use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyView};
+use tyndall_render::landscape::gpu_data::Landscape;
+use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyLight, SkyView};
 use tyndall_render::sky::night::gpu_data::Refraction;
 
 use crate::modules::{Module, assert_no_faults, faults_in, valid};
@@ -70,7 +71,9 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
                 padding,
             }),
         ),
+        landscape(),
         orders(),
+        ("SkyLight", rust_layout!(SkyLight { lowest_mu_sun, highest_mu_sun, top_altitude_m, lux })),
         ("Refraction", rust_layout!(Refraction { lift, horizon_elevation, padding0, padding1, padding2 })),
         (
             "SkyView",
@@ -92,6 +95,41 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
             }),
         ),
     ]
+}
+
+/// Twin of `Landscape`.
+fn landscape() -> (&'static str, StructLayout) {
+    (
+        "Landscape",
+        rust_layout!(Landscape {
+            base,
+            amplitude,
+            half_size_m,
+            height_m,
+            wavelength_m,
+            gain,
+            damping,
+            ridge,
+            valley_m,
+            snow_line_m,
+            ground_albedo,
+            key,
+            city,
+            columns,
+            rings,
+            far_rings,
+            centre_radius_m,
+            split_radius_m,
+            far_radius_m,
+            first_azimuth,
+            azimuth_step,
+            sun_tan_low,
+            sun_tan_high,
+            valley_phase,
+            sun_heading,
+            padding,
+        }),
+    )
 }
 
 /// Twin of `Orders`.

@@ -1,6 +1,6 @@
 //! Which parameters have no effect at present, and why: the app shows those disabled.
 
-use tyndall_scene::{ExposureMode, Orders, Scene, SkyMode, SunPosition};
+use tyndall_scene::{ExposureMode, LandscapeKind, Orders, Scene, SkyMode, SunPosition};
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
 pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
@@ -14,11 +14,26 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
         ("ground", "tile_m") if scene.ground.pattern.name() == "plain" => {
             Some("The ground is plain; set Pattern to checker.")
         }
+        ("landscape", name) => landscape(scene.landscape.kind, name),
         ("sky", "orders_detail") if scene.sky.orders == Orders::Single => {
             Some("Light counts that was scattered once; set Orders to all.")
         }
         ("sky", "dome_rings" | "dome_segments") if scene.sky.mode != SkyMode::VertexDome => {
             Some("The sky is computed at every pixel; set Mode to vertex-dome.")
+        }
+        _ => None,
+    }
+}
+
+fn landscape(kind: LandscapeKind, name: &str) -> Option<&'static str> {
+    match (kind, name) {
+        (_, "kind") => None,
+        (LandscapeKind::None, _) => Some("There is no landscape; set Kind to one."),
+        (LandscapeKind::City, "height_m" | "feature_km" | "snow_line_m") => {
+            Some("A city has no hills; set Kind to one that has.")
+        }
+        (LandscapeKind::Hills | LandscapeKind::Mountains | LandscapeKind::Valley, "building_m") => {
+            Some("There are no buildings; set Kind to city.")
         }
         _ => None,
     }
@@ -84,6 +99,7 @@ mod tests {
             ("film", "exposure"),
             ("film", "compensation_ev"),
             ("ground", "pattern"),
+            ("landscape", "kind"),
             ("sky", "mode"),
             ("haze", "enabled"),
         ] {
@@ -97,6 +113,8 @@ mod tests {
         let named = [
             "film.ev100",
             "ground.tile_m",
+            "landscape.size_km",
+            "landscape.building_m",
             "haze.visibility_km",
             "haze.forward_weight",
             "sky.dome_rings",

@@ -93,6 +93,15 @@ impl WordHash {
     }
 }
 
+/// The PCG permutation of O'Neill 2014, 32-bit RXS-M-XS, as a hash of one word: for noise that shaders compute too. WGSL:
+/// `shaders/common/noise.wgsl`.
+#[must_use]
+pub const fn noise_pcg(word: u32) -> u32 {
+    let state = word.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let mixed = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (mixed >> 22) ^ mixed
+}
+
 /// The word's upper 24 bits as a number in 0..1; exact in f32, so the same on every system.
 #[must_use]
 pub fn unit_from_word(word: u32) -> f32 {

@@ -1,12 +1,6 @@
 //! The noise that hides the steps of 8-bit pictures. f64 twins of `shaders/common/noise.wgsl`.
 
-/// The PCG permutation of O'Neill 2014, 32-bit RXS-M-XS, as a hash of one word.
-#[must_use]
-pub fn noise_pcg(word: u32) -> u32 {
-    let state = word.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let mixed = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
-    (mixed >> 22) ^ mixed
-}
+pub use tyndall_core::rng::noise_pcg;
 
 /// Noise with a triangular distribution over -1..1 and mean 0, for a pixel and a channel.
 #[must_use]

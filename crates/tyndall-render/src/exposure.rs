@@ -34,7 +34,8 @@ pub fn expected_ev100(film: &FilmParams, sun_elevation_rad: f64) -> f64 {
     }
 }
 
-fn daylight_ev100(elevation_deg: f64) -> f64 {
+/// Exposure value of a clear day with the sun at this elevation (deg).
+pub(crate) fn daylight_ev100(elevation_deg: f64) -> f64 {
     let [first, .., last] = LIGHT_OF_DAY;
     let clamped = elevation_deg.clamp(first.0, last.0);
     let pair = LIGHT_OF_DAY.windows(2).find(|pair| clamped <= pair[1].0);

@@ -1,4 +1,4 @@
-//! Renders Tyndall scenes with wgpu: sky, sun, ground, exposure and tone mapping.
+//! Renders Tyndall scenes with wgpu: sky, sun, ground, landscape, exposure and tone mapping.
 //!
 //! [`Renderer::render`] draws a [`tyndall_scene::Scene`] into a [`FrameTarget`]; the desktop program, the command line and
 //! the tests all call it. Nothing here opens windows or files.
@@ -17,6 +17,7 @@ pub mod environment;
 mod error;
 pub mod exposure;
 pub mod frame;
+pub mod landscape;
 mod renderer;
 pub mod sky;
 mod target;

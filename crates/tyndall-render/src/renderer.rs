@@ -9,12 +9,13 @@ use tyndall_scene::{Orders, OrdersDetail, Scene};
 use crate::develop::DevelopRenderer;
 use crate::exposure::ev100_from_gain;
 use crate::frame::{frame_uniform, gpu_data};
+use crate::landscape::{LandscapeDrawData, LandscapeRenderer, LandscapeSurroundings};
 use crate::sky::gpu_data::{Atmosphere as AtmosphereUniform, SkyView};
-use crate::sky::{OrdersRequest, SkyRenderer, SkyTables, TableBuilding, TableProgress};
+use crate::sky::{OrdersRequest, SkyLightTable, SkyRenderer, SkyTables, TableBuilding, TableProgress};
 use crate::{FrameTarget, RenderError, RendererConfig, View};
 
-/// Passes that a frame can have: five tables, scene, meter, development.
-const TIMED_PASSES: u32 = 8;
+/// Passes that a frame can have: five tables, light on surfaces, three of the landscape, scene, meter, development.
+const TIMED_PASSES: u32 = 16;
 
 /// Draws scenes. All pipelines are made at once, so that a wrong shader shows at the start.
 #[derive(Debug)]
@@ -22,7 +23,9 @@ pub struct Renderer {
     config: RendererConfig,
     frame: Buffer,
     tables: SkyTables,
+    light: SkyLightTable,
     sky: SkyRenderer,
+    landscape: LandscapeRenderer,
     develop: DevelopRenderer,
     timer: PassTimer,
     pre_exposure: f32,
@@ -39,7 +42,9 @@ impl Renderer {
             config,
             frame: gpu.buffer("frame", frame_bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
             tables: SkyTables::new(gpu)?,
+            light: SkyLightTable::new(gpu)?,
             sky: SkyRenderer::new(gpu, config)?,
+            landscape: LandscapeRenderer::new(gpu, config)?,
             develop: DevelopRenderer::new(gpu, config)?,
             timer: PassTimer::new(gpu, TIMED_PASSES)?,
             pre_exposure: 1.0,
@@ -76,6 +81,7 @@ impl Renderer {
             return Err(RenderError::Configuration { target: target.config, renderer: self.config });
         }
         scene.check()?;
+        let scene = &scene.grounded();
         let frame = frame_uniform(scene, view, target.size_px(), self.config.picture)?;
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
         self.pre_exposure = frame.pre_exposure;
@@ -88,7 +94,8 @@ impl Renderer {
         let orders = OrdersRequest { model: &model, quality: orders_quality(scene), brightness: scene.sun.brightness };
         self.tables.update_night(gpu, scene, &model);
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
-        self.record_scene(gpu, &mut encoder, scene, target)?;
+        let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), target.size_px())?;
+        self.record_scene(gpu, &mut encoder, (scene, landscape), target)?;
         if view != View::Panorama {
             let data = self.develop.prepare(gpu, &self.frame, target)?;
             self.develop.record(&mut encoder, &mut self.timer, &data, target);
@@ -103,7 +110,7 @@ impl Renderer {
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        scene: &Scene,
+        (scene, landscape): (&Scene, Option<LandscapeDrawData>),
         target: &FrameTarget,
     ) -> Result<(), RenderError> {
         let dome = Dome { rings: scene.sky.dome_rings, segments: scene.sky.dome_segments };
@@ -124,8 +131,25 @@ impl Renderer {
             timestamp_writes: self.timer.render_writes("sky and ground"),
             ..Default::default()
         });
+        if let Some(landscape) = &landscape {
+            self.landscape.draw(&mut pass, landscape);
+        }
         self.sky.draw(&mut pass, &sky);
         Ok(())
+    }
+
+    /// Records what the landscape needs, the light on it included.
+    fn prepare_landscape(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        (scene, view): (&Scene, View),
+        size_px: [u32; 2],
+    ) -> Result<Option<LandscapeDrawData>, RenderError> {
+        let Some(reach) = crate::landscape::reach(scene, view, size_px) else { return Ok(None) };
+        self.light.update(gpu, encoder, &mut self.timer, &self.tables, (scene, reach))?;
+        let surroundings = LandscapeSurroundings { frame: &self.frame, tables: &self.tables, light: &self.light };
+        self.landscape.prepare(gpu, encoder, &mut self.timer, (scene, view, size_px), surroundings)
     }
 
     /// GPU time of each pass of the last frame; waits for it. Empty where the adapter has no timestamps.

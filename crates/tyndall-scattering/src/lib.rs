@@ -42,6 +42,7 @@ pub mod quadrature;
 pub mod refraction;
 pub mod single_scattering;
 pub mod sky_diffuse_table;
+pub mod sky_light;
 pub mod sky_view_map;
 pub mod sky_view_table;
 pub mod sun_disc;

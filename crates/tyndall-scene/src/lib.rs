@@ -1,11 +1,12 @@
 //! Scenes: what a picture shows, as parameters, as a TOML file, and as the camera and the sun that follow from them.
 //!
-//! - [`Scene`]: the eight groups of parameters, reached by path (`sun.elevation_deg`), checked and hashed.
+//! - [`Scene`]: the groups of parameters, reached by path (`sun.elevation_deg`), checked and hashed.
 //! - [`SceneFile`]: scene files, read with exact error positions and written with the user's comments kept.
-//! - [`params`]: camera, sun, sky, film and image; atmosphere, haze and ground come from [`tyndall_scattering::params`].
+//! - [`params`]: camera, sun, sky, landscape, film and image; atmosphere, haze and ground come from [`tyndall_scattering::params`].
 //! - [`presets`]: the scenes that come with Tyndall.
 //! - [`schema`] and [`markdown_table`]: the format for editors and for readers.
 //! - [`sun`]: direction of the sun from angles or from date, time and place.
+//! - [`landscape`]: heights of hills, mountains and cities.
 //! - [`camera`]: axes, rays and matrices of the camera, and how it moves.
 
 mod brief;
@@ -15,6 +16,7 @@ mod docs;
 mod error;
 mod file;
 mod hash;
+pub mod landscape;
 mod nearest;
 pub mod params;
 mod place;
@@ -27,8 +29,8 @@ pub use error::SceneError;
 pub use file::{FORMAT, MAX_BYTES, SceneFile};
 pub use hash::SceneHash;
 pub use params::{
-    CameraParams, ExposureMode, FilmParams, ImageParams, Orders, OrdersDetail, SkyMode, SkyParams, SunParams,
-    SunPosition, ToneMap,
+    CameraParams, ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams, Orders, OrdersDetail, SkyMode,
+    SkyParams, SunParams, SunPosition, ToneMap,
 };
 pub use place::Place;
 pub use preset::{Preset, presets};

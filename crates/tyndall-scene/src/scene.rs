@@ -4,9 +4,10 @@ use tyndall_core::units::M_PER_KM;
 use tyndall_core::{ParamInfo, ParamSet};
 use tyndall_scattering::refraction::RefractiveAir;
 
+use crate::landscape::Landscape;
 use crate::{
-    Atmosphere, AtmosphereParams, CameraParams, FilmParams, GroundParams, HazeParams, ImageParams, SceneError,
-    SceneHash, SkyParams, SunDirection, SunParams, brief::brief, nearest::nearest, sun,
+    Atmosphere, AtmosphereParams, CameraParams, FilmParams, GroundParams, HazeParams, ImageParams, LandscapeParams,
+    SceneError, SceneHash, SkyParams, SunDirection, SunParams, brief::brief, nearest::nearest, sun,
 };
 
 /// Everything that a picture depends on, and its title.
@@ -26,6 +27,8 @@ pub struct Scene {
     pub haze: HazeParams,
     /// The ground.
     pub ground: GroundParams,
+    /// Hills, mountains or buildings on the ground.
+    pub landscape: LandscapeParams,
     /// How the sky is computed.
     pub sky: SkyParams,
     /// Exposure and display.
@@ -37,13 +40,14 @@ pub struct Scene {
 impl Scene {
     /// The groups with their names in scene files, in the order in which they are shown.
     #[must_use]
-    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 8] {
+    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 9] {
         [
             ("camera", &self.camera),
             ("sun", &self.sun),
             ("atmosphere", &self.atmosphere),
             ("haze", &self.haze),
             ("ground", &self.ground),
+            ("landscape", &self.landscape),
             ("sky", &self.sky),
             ("film", &self.film),
             ("image", &self.image),
@@ -52,13 +56,14 @@ impl Scene {
 
     /// [`Scene::groups`], to change them.
     #[must_use]
-    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 8] {
+    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 9] {
         [
             ("camera", &mut self.camera),
             ("sun", &mut self.sun),
             ("atmosphere", &mut self.atmosphere),
             ("haze", &mut self.haze),
             ("ground", &mut self.ground),
+            ("landscape", &mut self.landscape),
             ("sky", &mut self.sky),
             ("film", &mut self.film),
             ("image", &mut self.image),
@@ -127,6 +132,15 @@ impl Scene {
         let (radius_m, scale_height_m) = (air.planet_radius_km * M_PER_KM, air.air_scale_height_km * M_PER_KM);
         let bent = RefractiveAir::new(radius_m, air.air_density, scale_height_m, sun.pressure_hpa, sun.temperature_c);
         sun.refraction.then_some(bent)
+    }
+
+    /// The scene with its camera's altitude above sea level: `camera.altitude_m` counts from what the landscape has under
+    /// the camera. Renderers and headers start from here.
+    #[must_use]
+    pub fn grounded(&self) -> Self {
+        let mut scene = self.clone();
+        scene.camera.altitude_m += Landscape::new(&self.landscape).ground_m(self.camera.x_m, self.camera.y_m);
+        scene
     }
 
     /// Hash of all parameters: what a picture's header stores to tell whether the picture is still that of its scene.

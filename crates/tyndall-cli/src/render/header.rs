@@ -17,7 +17,7 @@ pub(super) fn metadata(scene: &Scene, frame: &Frame) -> PictureMetadata {
         scene_hash: scene.hash().to_string(),
         title: scene.title.clone(),
         comments: scene.description.clone(),
-        world_to_camera: world_to_camera(&scene.camera),
+        world_to_camera: world_to_camera(&scene.grounded().camera),
         near_m: NEAR_M as f32,
         field_of_view_rad: scene.camera.field_of_view_deg.to_radians() as f32,
         latitude_deg: place.map(|sun| sun.latitude_deg),

@@ -95,6 +95,17 @@ pub struct Orders {
     pub padding2: u32,
 }
 
+/// Twin of `SkyLight` in `shaders/sky/light.wgsl`; units and meanings there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "documented at the WGSL twin")]
+pub struct SkyLight {
+    pub lowest_mu_sun: f32,
+    pub highest_mu_sun: f32,
+    pub top_altitude_m: f32,
+    pub lux: f32,
+}
+
 /// Zenith angles of the quadrature on each side of the horizon that `Orders` in `shaders/sky/orders.wgsl` has room for.
 pub const ORDERS_ZENITHS_MAX: usize = 8;
 

@@ -6,6 +6,7 @@
 
 mod building;
 pub mod gpu_data;
+pub(crate) mod light;
 pub mod night;
 mod orders;
 mod orders_cpu;
@@ -14,6 +15,7 @@ mod passes;
 mod tables;
 
 pub use building::{TableBuilding, TableProgress, Wake};
+pub use light::{SkyLightReach, SkyLightTable};
 pub use orders::{OrdersRequest, OrdersTable};
 pub use passes::{SkyDrawData, SkyRenderer};
 pub use tables::SkyTables;

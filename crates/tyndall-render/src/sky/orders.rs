@@ -54,8 +54,8 @@ impl Wanted {
 /// The table, its uniform and what fills it.
 #[derive(Debug)]
 pub struct OrdersTable {
-    pub(super) uniform: Buffer,
-    pub(super) table: Buffer,
+    pub(crate) uniform: Buffer,
+    pub(crate) table: Buffer,
     building: TableBuilding,
     cpu: CpuBuilder,
     gpu: GpuBuilder,

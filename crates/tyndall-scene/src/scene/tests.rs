@@ -29,7 +29,11 @@ fn every_parameter_is_read_and_set_by_its_path() {
 fn both_lists_of_groups_have_the_same_names_in_the_same_order() {
     let mut scene = Scene::default();
     let names = scene.groups().map(|(name, _)| name);
-    assert_eq!(names, ["camera", "sun", "atmosphere", "haze", "ground", "sky", "film", "image"], "as in scene files");
+    assert_eq!(
+        names,
+        ["camera", "sun", "atmosphere", "haze", "ground", "landscape", "sky", "film", "image"],
+        "as in scene files"
+    );
     assert_eq!(scene.groups_mut().map(|(name, _)| name), names, "mutable");
 }
 
