@@ -1,6 +1,9 @@
 // Rays in a spherical shell, in forms that do not cancel in f32: r^2 - R^2 is written h (2R + h).
 // Lengths in metres; h = altitude, mu = cosine of the zenith angle. Twins: tyndall_scattering::geometry.
 
+/// A distance that no ray has.
+const SPHERE_NEVER: f32 = -1e30;
+
 /// Altitude at distance t along a ray from altitude h; never below the ground.
 fn altitude_along(radius: f32, h: f32, mu: f32, t: f32) -> f32 {
     let q = h * (2.0 * radius + h) + t * (2.0 * (radius + h) * mu + t);
@@ -35,6 +38,21 @@ fn distance_to_ground(radius: f32, h: f32, mu: f32) -> f32 {
         return -1.0;
     }
     return q / (sqrt(discriminant) - b);
+}
+
+/// Distances at which the line of a ray passes an altitude, on the way down and on the way up; both SPHERE_NEVER where its
+/// lowest point lies higher. Negative distances lie behind the start.
+fn altitude_crossings(radius: f32, h: f32, mu: f32, altitude: f32) -> vec2<f32> {
+    let b = (radius + h) * mu;
+    let q = (h - altitude) * (2.0 * radius + h + altitude);
+    let discriminant = b * b - q;
+    if (discriminant < 0.0) {
+        return vec2<f32>(SPHERE_NEVER);
+    }
+    let root = sqrt(discriminant);
+    let down = select(-b - root, q / max(root - b, 1e-6), b < 0.0);
+    let up = select(root - b, -q / max(root + b, 1e-6), b > 0.0);
+    return vec2<f32>(down, up);
 }
 
 /// Zenith cosine of the geometric horizon.

@@ -7,6 +7,7 @@
 @group(0) @binding(1) var column_texels: texture_storage_2d<rgba32float, write>;
 
 const COLUMN_PANELS: u32 = 24u;
+const COLUMN_PANELS_MIN: u32 = 4u;
 
 /// Densities at distance t along a ray, those of air and aerosol relative to the ones at the observer. The exponent ends
 /// where f32 does; so thin a medium contributes nothing.
@@ -16,17 +17,40 @@ fn column_density(h: f32, mu: f32, t: f32) -> vec3<f32> {
     return vec3<f32>(exp(min((h - h_t) / scale_heights, vec2<f32>(80.0))), atmosphere_density(h_t).z);
 }
 
-/// Columns from distance `from_m` over a signed `span_m`, nodes quadratically dense at `from_m`.
-fn column_side(h: f32, mu: f32, from_m: f32, span_m: f32) -> vec3<f32> {
+/// Columns from distance `from_m` over a signed `span_m`, between the squared shares x0 and x1 of the span.
+fn column_piece(h: f32, mu: f32, from_m: f32, span_m: f32, x0: f32, x1: f32) -> vec3<f32> {
+    let panels = clamp(u32(ceil((x1 - x0) * f32(COLUMN_PANELS))), COLUMN_PANELS_MIN, COLUMN_PANELS);
+    let width = (x1 - x0) / f32(panels);
     var sum = vec3<f32>(0.0);
-    for (var panel = 0u; panel < COLUMN_PANELS; panel++) { // loops: COLUMN_PANELS
+    for (var panel = 0u; panel < panels; panel++) { // loops: COLUMN_PANELS
         for (var node = 0u; node < 4u; node++) { // loops: 4
-            let x = (f32(panel) + QUADRATURE_NODES[node]) / f32(COLUMN_PANELS);
-            let weight = QUADRATURE_WEIGHTS[node] * 2.0 * x / f32(COLUMN_PANELS);
-            sum += column_density(h, mu, from_m + span_m * x * x) * weight;
+            let x = x0 + (f32(panel) + QUADRATURE_NODES[node]) * width;
+            sum += column_density(h, mu, from_m + span_m * x * x) * (QUADRATURE_WEIGHTS[node] * 2.0 * x * width);
         }
     }
     return sum * abs(span_m);
+}
+
+/// Columns from distance `from_m` over a signed `span_m`, nodes quadratically dense at `from_m`. No panel crosses a corner
+/// of the ozone's tent.
+fn column_side(h: f32, mu: f32, from_m: f32, span_m: f32) -> vec3<f32> {
+    var sum = vec3<f32>(0.0);
+    var x = 0.0;
+    for (var corner = 0u; corner < 4u; corner++) { // loops: 4
+        var to = 1.0;
+        if (corner < 3u) {
+            let altitude = atmosphere.ozone_altitude_m + (f32(corner) - 1.0) * atmosphere.ozone_half_width_m;
+            let crossings = altitude_crossings(atmosphere.planet_radius_m, h, mu, altitude);
+            let share = (select(crossings.y, crossings.x, span_m < 0.0) - from_m) / span_m;
+            // A corner below the lowest point is passed nowhere.
+            to = select(x, clamp(sqrt(max(share, 0.0)), x, 1.0), crossings.y > SPHERE_NEVER);
+        }
+        if (to > x) {
+            sum += column_piece(h, mu, from_m, span_m, x, to);
+            x = to;
+        }
+    }
+    return sum;
 }
 
 @compute @workgroup_size(8, 8, 1)

@@ -1,8 +1,7 @@
 // The quadrature of paper eq. (1) that fills the sky tables. Twin: tyndall_scattering::march.
 //
-// A ray is cut at its lowest point and where it enters and leaves the earth's shadow; each piece takes panels of four
-// Gauss nodes in a variable x with t = lowest + x |x| side, so that nodes are dense at the lowest point. The column from
-// the observer is the running integral of the same nodes, the column to the sun comes from the table.
+// The panels are those of march_path.wgsl. The column from the observer is the running integral of their nodes, the column
+// to the sun comes from the table.
 // @import sky/column_lookup.wgsl
 // @import sky/march_path.wgsl
 
@@ -47,37 +46,21 @@ fn march_panel(state: MarchState, ray: Ray, ends: vec2<f32>, x0: f32, width: f32
     return out;
 }
 
-/// Light scattered once towards the observer over `length` metres of a ray; `panels` from 2 to MARCH_PANELS_MAX.
+/// Light scattered once towards the observer over `length` metres of a ray; `panels` from 2 to 16.
 fn march_scattered(ray: Ray, length: f32, panels: u32) -> Scattered {
     return march_ray(ray, length, panels).light;
 }
 
 /// The same light, and the columns along the ray.
 fn march_ray(ray: Ray, length: f32, panels: u32) -> MarchState {
-    let radius = atmosphere.planet_radius_m;
-    let lowest = clamp(-(radius + ray.h) * ray.mu, 0.0, length);
-    let shadow = shadow_interval(radius, ray.h, ray.mu, ray.mu_sun, ray.nu, length);
-    let start = select(0.0, -1.0, lowest > 0.0);
-    let end = select(0.0, 1.0, length > lowest);
-    let enter = clamp(march_variable(shadow.x, lowest, length), start, end);
-    let leave = clamp(march_variable(shadow.y, lowest, length), start, end);
-    // start, enter, leave, 0 and end in order, knowing enter <= leave.
-    let breaks = array<f32, 5>(start, min(enter, 0.0), clamp(0.0, enter, leave), max(leave, 0.0), end);
-    let roots = sqrt(vec2<f32>(lowest, length - lowest));
+    let path = march_path_lit(ray, length);
     var state = MarchState(vec4<f32>(0.0), scattered_nothing());
-    for (var piece = 0u; piece < 4u; piece++) { // loops: 4
-        let low = breaks[piece];
-        let high = clamp(breaks[piece + 1u], start, end);
-        let extent = max(high - max(low, start), 0.0);
-        if (extent <= 0.0) { continue; }
-        let middle = 0.5 * (low + high);
-        let lit = middle <= enter || middle >= leave;
-        let share = extent * select(roots.y, roots.x, high <= 0.0) / (roots.x + roots.y);
-        let count = clamp(u32(ceil(f32(panels) * share)), 1u, MARCH_PANELS_MAX);
-        for (var panel = 0u; panel < count; panel++) { // loops: MARCH_PANELS_MAX
-            let width = extent / f32(count);
-            state = march_panel(state, ray, vec2<f32>(lowest, length), low + f32(panel) * width, width, lit);
-        }
+    var now = march_piece(path, ray, panels, path.limits.x);
+    for (var i = 0u; i < MARCH_PANELS; i++) { // loops: MARCH_PANELS
+        if (now.piece.x >= path.limits.y) { break; }
+        let place = march_panel_place(now);
+        state = march_panel(state, ray, path.ends, place.x, place.y, march_is_lit(path, now));
+        now = march_next_panel(path, ray, panels, now);
     }
     return state;
 }

@@ -73,19 +73,17 @@ fn orders_panel(state: OrdersGathered, ray: Ray, ends: vec2<f32>, x0: f32, width
     return out;
 }
 
-/// What is scattered into `length` metres of a ray; `panels` from 2 to MARCH_PANELS_MAX.
+/// What is scattered into `length` metres of a ray; `panels` from 2 to 16.
 fn orders_gather(ray: Ray, length: f32, panels: u32) -> OrdersGathered {
-    let lowest = clamp(-(atmosphere.planet_radius_m + ray.h) * ray.mu, 0.0, length);
-    let roots = sqrt(vec2<f32>(lowest, length - lowest));
+    // Light from all sides falls off below a layer's top as that of a sun in the zenith.
+    let path = march_path(ray.h, ray.mu, 1.0, ray.mu, length);
     var state = OrdersGathered(Spectrum(vec4<f32>(0.0), vec4<f32>(0.0)), vec4<f32>(0.0));
-    for (var side = 0u; side < 2u; side++) { // loops: 2
-        if (roots[side] <= 0.0) { continue; }
-        let count = clamp(u32(ceil(f32(panels) * roots[side] / (roots.x + roots.y))), 1u, MARCH_PANELS_MAX);
-        for (var panel = 0u; panel < count; panel++) { // loops: MARCH_PANELS_MAX
-            let width = 1.0 / f32(count);
-            let x0 = f32(panel) * width - select(0.0, 1.0, side == 0u);
-            state = orders_panel(state, ray, vec2<f32>(lowest, length), x0, width);
-        }
+    var now = march_piece(path, ray, panels, path.limits.x);
+    for (var i = 0u; i < MARCH_PANELS; i++) { // loops: MARCH_PANELS
+        if (now.piece.x >= path.limits.y) { break; }
+        let place = march_panel_place(now);
+        state = orders_panel(state, ray, path.ends, place.x, place.y);
+        now = march_next_panel(path, ray, panels, now);
     }
     return state;
 }

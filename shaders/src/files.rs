@@ -35,6 +35,7 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "sky/dome.wgsl",
     "sky/ground.wgsl",
     "sky/ground_light.wgsl",
+    "sky/haze_breaks.wgsl",
     "sky/irradiance_diffuse.wgsl",
     "sky/irradiance_map.wgsl",
     "sky/irradiance_table.wgsl",

@@ -81,6 +81,12 @@ impl ColumnTable {
         [column(air, &self.profiles[0]), column(aerosol, &self.profiles[1]), ozone, haze]
     }
 
+    /// The haze, if there is some.
+    #[must_use]
+    pub fn haze(&self) -> Option<&HazeLayer> {
+        self.haze.as_ref()
+    }
+
     /// The stored texels (ln of air and of aerosol over the density at the texel's altitude, ozone), x fastest.
     pub fn texels(&self) -> impl Iterator<Item = [f64; STORED_COUNT]> {
         self.cells.cells().iter().map(|texel| texel.0)

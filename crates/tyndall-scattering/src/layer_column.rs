@@ -34,6 +34,12 @@ impl HazeLayer {
         Self { radius_m, top_m, scale_height_m, strongest_per_m, zone_m }
     }
 
+    /// Density at an altitude (m).
+    #[must_use]
+    pub fn density(&self, altitude_m: f64) -> f64 {
+        (-(altitude_m - self.top_m).max(0.0) / self.scale_height_m).exp()
+    }
+
     /// Column (m) from altitude `h_m` in a direction above the horizon to the end of the layer.
     #[must_use]
     pub fn column(&self, h_m: f64, mu: f64) -> f64 {
@@ -48,8 +54,7 @@ impl HazeLayer {
     /// Column of a ray with mu >= 0.
     fn rising(&self, h_m: f64, mu: f64) -> f64 {
         if h_m >= self.top_m {
-            let density = (-(h_m - self.top_m) / self.scale_height_m).exp();
-            return density * self.thinning(h_m, mu);
+            return self.density(h_m) * self.thinning(h_m, mu);
         }
         let even_m = distance_to_top(self.radius_m, self.top_m, h_m, mu);
         even_m + self.thinning(self.top_m, mu_along(self.radius_m, h_m, mu, 1.0, even_m, self.top_m))

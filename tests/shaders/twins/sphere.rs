@@ -20,6 +20,11 @@ fn distance_to_entry(h_m: f64, mu: f64) -> f64 {
     if mu >= 0.0 || discriminant < 0.0 { -1.0 } else { -b - discriminant.sqrt() }
 }
 
+fn crossings(h_m: f64, mu: f64, altitude_m: f64) -> [f64; 2] {
+    // As `SPHERE_NEVER` in the shader.
+    geometry::altitude_crossings(RADIUS_M, h_m, mu, altitude_m).unwrap_or([-1e30; 2])
+}
+
 fn shadow(h_m: f64, [mu, mu_sun, nu]: [f64; 3], length_m: f64) -> (f64, f64) {
     let ray = Ray { h_m, mu, mu_sun, nu };
     geometry::shadow_interval(RADIUS_M, &ray, length_m).unwrap_or((length_m, length_m))
@@ -50,6 +55,13 @@ twins! { "common/sphere.wgsl";
             => |x| geometry::distance_to_ground(RADIUS_M, x[0], x[1]).unwrap_or(-1.0),
         "distance_to_ground(6360000.0, x.x, x.z)"
             => |x| geometry::distance_to_ground(RADIUS_M, x[0], x[2]).unwrap_or(-1.0),
+    }
+    // Altitudes above and below the start; level rays, whose crossings are roots of almost nothing, are left out.
+    altitude_crossings in [0.0..=1e4, 0.2..=1.0, 0.0..=1e5, NONE],
+        within Tolerance { absolute: 0.01, relative: 3e-6 }, {
+        "altitude_crossings(6360000.0, x.x, x.y, x.z).y" => |x| crossings(x[0], x[1], x[2])[1],
+        "altitude_crossings(6360000.0, x.x, -x.y, x.z).x" => |x| crossings(x[0], -x[1], x[2])[0],
+        "altitude_crossings(6360000.0, x.x, x.y * 0.0, x.x - 1.0 - x.z).x" => |x| crossings(x[0], 0.0, x[0] - 1.0 - x[2])[0],
     }
     horizon_mu in [0.0..=1e5, NONE, NONE, NONE], within Tolerance::relative(1e-6), {
         "horizon_mu(6360000.0, x.x)" => |x| geometry::horizon_mu(RADIUS_M, x[0]),

@@ -8,7 +8,8 @@ use super::media::ScatteringMedia;
 use super::nodes::{Nodes, Place};
 use crate::atmosphere::{MEDIUM_COUNT, SCATTERER_COUNT, SCATTERERS};
 use crate::geometry::{Ray, altitude_along, mu_along};
-use crate::march::{Marcher, PathMap};
+use crate::march::Marcher;
+use crate::march_path::PathMap;
 use crate::optical_length::Columns;
 use crate::quadrature::{NODES, RUNNING, WEIGHTS};
 use crate::single_scattering::RayEnd;
@@ -49,7 +50,7 @@ impl Path {
         panels: usize,
     ) -> Self {
         let radius_m = marcher.atmosphere.planet_radius_m;
-        let map = PathMap::without_shadow(radius_m, (h_m, mu), end.length_m);
+        let map = PathMap::without_shadow(radius_m, marcher.columns.haze(), (h_m, mu), end.length_m);
         let mut path = Self { radius_m, h_m, places: Vec::with_capacity(4 * panels + 4), ground: None };
         let mut columns = [0.0; MEDIUM_COUNT];
         map.for_each_panel(panels, |x0, width| {
