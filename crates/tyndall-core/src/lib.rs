@@ -5,6 +5,7 @@
 //! - [`rng`]: Philox4x32-10, a random number as a pure function of (seed, step, cell), and a cheap hash keyed by it.
 //! - [`grid`]: dense 2-D and 3-D arrays with a documented index order and linear interpolation.
 //! - [`metaball`]: the field of the balls that clouds and smoke are made of, its columns and its mass.
+//! - [`primaries`]: colour spaces of linear RGB in files.
 //! - [`spectrum`]: the eight wavelengths of all light transport and their map to linear Rec.709.
 //! - [`units`]: conversions at the edges of the program; inside it everything is metres, seconds, radians, kelvin.
 
@@ -12,6 +13,7 @@ pub mod grid;
 pub mod metaball;
 pub mod observer;
 pub mod params;
+pub mod primaries;
 pub mod rng;
 pub mod spectrum;
 pub mod units;

@@ -2,11 +2,13 @@
 //!
 //! The standard attributes are `OpenEXR`'s own; what it has no name for is called `tyndall/...`. Texts are UTF-8.
 
-use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
+use exr::meta::attribute::{AttributeValue, Chromaticities, EnvironmentMap, Text};
 use exr::meta::header::{ImageAttributes, LayerAttributes};
 use exr::prelude::{IntegerBounds, Vec2};
 
-use crate::{IoError, PictureMetadata};
+use tyndall_core::primaries::RgbPrimaries;
+
+use crate::{IoError, PictureMetadata, Projection};
 
 /// Header entry that holds the scene's hash, in EXR and in PNG.
 pub(crate) const SCENE_HASH: &str = "tyndall/sceneHash";
@@ -15,45 +17,39 @@ const VERSION: &str = "tyndall/version";
 const EXPOSURE: &str = "tyndall/exposureEv100";
 const COLOR_SPACE: &str = "oiio:ColorSpace";
 
-/// Name of scene-linear Rec.709 in the ACES colour configurations, understood by `OpenImageIO`.
-const REC709_LINEAR: &str = "lin_rec709_scene";
-
-/// Rec. ITU-R BT.709-6, table 1, with white D65.
-const REC709: Chromaticities = Chromaticities {
-    red: Vec2(0.64, 0.33),
-    green: Vec2(0.30, 0.60),
-    blue: Vec2(0.15, 0.06),
-    white: Vec2(0.3127, 0.3290),
-};
+/// Primaries as the format stores them.
+#[expect(clippy::cast_possible_truncation, reason = "the format stores these as f32")]
+fn chromaticities(primaries: RgbPrimaries) -> Chromaticities {
+    let [red, green, blue, white] = primaries.chromaticities().map(|[x, y]| Vec2(x as f32, y as f32));
+    Chromaticities { red, green, blue, white }
+}
 
 /// The attributes that all parts of a file share.
-pub(crate) fn image_attributes(size_px: [u32; 2]) -> ImageAttributes {
+pub(crate) fn image_attributes(size_px: [u32; 2], primaries: RgbPrimaries) -> ImageAttributes {
     let window = IntegerBounds::from_dimensions((size_px[0] as usize, size_px[1] as usize));
     let mut image = ImageAttributes::new(window);
-    image.chromaticities = Some(REC709);
+    image.chromaticities = Some(chromaticities(primaries));
     image
 }
 
 /// The attributes of the one part.
 #[expect(clippy::cast_possible_truncation, reason = "the format stores these as f32")]
 pub(crate) fn layer_attributes(size_px: [u32; 2], metadata: &PictureMetadata) -> Result<LayerAttributes, IoError> {
-    let half_height = (f64::from(metadata.field_of_view_rad) / 2.0).tan();
-    let half_width = half_height * f64::from(size_px[0]) / f64::from(size_px[1]);
     let mut layer = LayerAttributes {
-        screen_window_width: (2.0 * half_width) as f32,
-        white_luminance: Some(1.0),
+        white_luminance: Some(metadata.white_luminance_cd_m2),
         comments: optional_text(&metadata.comments),
         longitude: metadata.longitude_deg.map(|angle_deg| angle_deg as f32),
         latitude: metadata.latitude_deg.map(|angle_deg| angle_deg as f32),
-        world_to_camera: Some(metadata.world_to_camera),
         software_name: optional_text(&metadata.software),
-        near_clip_plane: Some(metadata.near_m),
-        horizontal_field_of_view: Some((2.0 * half_width.atan()).to_degrees() as f32),
-        vertical_field_of_view: Some(metadata.field_of_view_rad.to_degrees()),
         ..LayerAttributes::default()
     };
+    match metadata.projection {
+        Projection::Perspective => add_camera(&mut layer, size_px, metadata),
+        Projection::LatLong => layer.environment_map = Some(EnvironmentMap::LatitudeLongitude),
+        Projection::Assembled => {}
+    }
     let own = [
-        (COLOR_SPACE, REC709_LINEAR),
+        (COLOR_SPACE, metadata.primaries.color_space()),
         (VERSION, env!("CARGO_PKG_VERSION")),
         (SCENE_HASH, &metadata.scene_hash),
         (TITLE, &metadata.title),
@@ -72,10 +68,29 @@ pub(crate) fn layer_attributes(size_px: [u32; 2], metadata: &PictureMetadata) ->
     Ok(layer)
 }
 
+#[expect(clippy::cast_possible_truncation, reason = "the format stores these as f32")]
+fn add_camera(layer: &mut LayerAttributes, size_px: [u32; 2], metadata: &PictureMetadata) {
+    let half_height = (f64::from(metadata.field_of_view_rad) / 2.0).tan();
+    let half_width = half_height * f64::from(size_px[0]) / f64::from(size_px[1]);
+    layer.screen_window_width = (2.0 * half_width) as f32;
+    layer.world_to_camera = Some(metadata.world_to_camera);
+    layer.near_clip_plane = Some(metadata.near_m);
+    layer.horizontal_field_of_view = Some((2.0 * half_width.atan()).to_degrees() as f32);
+    layer.vertical_field_of_view = Some(metadata.field_of_view_rad.to_degrees());
+}
+
 /// What a header says, as far as it says it; the rest stays at its default.
-pub(crate) fn metadata(layer: &LayerAttributes) -> PictureMetadata {
+pub(crate) fn metadata(image: &ImageAttributes, layer: &LayerAttributes) -> PictureMetadata {
+    let aces_cg = image.chromaticities == Some(chromaticities(RgbPrimaries::AcesCg));
     let mut metadata = PictureMetadata {
         software: layer.software_name.as_ref().map(string).unwrap_or_default(),
+        primaries: if aces_cg { RgbPrimaries::AcesCg } else { RgbPrimaries::Rec709 },
+        white_luminance_cd_m2: layer.white_luminance.unwrap_or(1.0),
+        projection: match layer.environment_map {
+            Some(EnvironmentMap::LatitudeLongitude) => Projection::LatLong,
+            Some(EnvironmentMap::Cube) => Projection::Assembled,
+            None => Projection::Perspective,
+        },
         comments: layer.comments.as_ref().map(string).unwrap_or_default(),
         latitude_deg: layer.latitude.map(f64::from),
         longitude_deg: layer.longitude.map(f64::from),

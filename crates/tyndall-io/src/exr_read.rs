@@ -24,7 +24,7 @@ pub fn read_exr(path: impl AsRef<Path>) -> Result<(Picture, PictureMetadata), Io
     let image = read_first_flat_layer_from_file(path).map_err(|error| read_error(path, error))?;
     let layer = image.layer_data;
     let picture = picture_of(path, &layer)?;
-    Ok((picture, exr_attributes::metadata(&layer.attributes)))
+    Ok((picture, exr_attributes::metadata(&image.attributes, &layer.attributes)))
 }
 
 /// Size and metadata of an EXR file, without its pixels.
@@ -34,7 +34,7 @@ pub(crate) fn read_header(path: &Path) -> Result<([u32; 2], PictureMetadata), Io
     let header = meta.headers.first().ok_or_else(|| format_error(path, "the file has no parts"))?;
     let size_px = size_of(path, header.layer_size)?;
     check_size(size_px)?;
-    Ok((size_px, exr_attributes::metadata(&header.own_attributes)))
+    Ok((size_px, exr_attributes::metadata(&header.shared_attributes, &header.own_attributes)))
 }
 
 fn size_of(path: &Path, size: exr::math::Vec2<usize>) -> Result<[u32; 2], IoError> {

@@ -1,6 +1,6 @@
-//! Writes a picture as `OpenEXR`: one part, scanlines, channels R G B A and Z.
+//! Writes a picture as `OpenEXR`: one part, scanlines, channels R G B, A and Z.
 //!
-//! Values are scene-linear Rec.709 in cd/m^2 (`whiteLuminance` 1), alpha associated, Z the planar view distance in
+//! Values are scene-linear, in the primaries and the unit of the metadata (Rec.709 and cd/m^2), alpha associated, Z the planar view distance in
 //! metres as 32-bit float. The file holds no NaN and no infinity. Equal pictures give equal bytes. 1920 x 1080 with
 //! ZIPS takes half a second on two cores that do other things too.
 
@@ -48,6 +48,16 @@ pub enum Compression {
     Piz,
 }
 
+/// Which colour channels are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Channels {
+    /// R, G, B and A.
+    #[default]
+    Rgba,
+    /// R, G and B: for pictures without an edge, a quarter smaller.
+    Rgb,
+}
+
 /// How an EXR is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ExrOptions {
@@ -55,6 +65,8 @@ pub struct ExrOptions {
     pub precision: Precision,
     /// How the pixels are packed.
     pub compression: Compression,
+    /// Which colour channels.
+    pub channels: Channels,
 }
 
 /// What became of the picture.
@@ -94,8 +106,8 @@ pub fn write_exr<'a>(
         blocks: Blocks::ScanLines,
         line_order: LineOrder::Increasing,
     };
-    let layer = Layer::new(size_px, attributes, encoding, channels(picture, options.precision));
-    let image = Image { attributes: image_attributes(picture.size_px), layer_data: layer };
+    let layer = Layer::new(size_px, attributes, encoding, channels(picture, options));
+    let image = Image { attributes: image_attributes(picture.size_px, metadata.primaries), layer_data: layer };
     let bytes = atomic::write_atomically(destination, |file| {
         image.write().to_buffered(&mut *file).map_err(into_io_error)?;
         sort_attributes(file)?;
@@ -129,10 +141,11 @@ pub(crate) fn into_io_error(error: exr::error::Error) -> io::Error {
 }
 
 /// The channels, in the alphabetical order that the format asks for.
-fn channels(picture: &Picture, precision: Precision) -> AnyChannels<FlatSamples> {
-    let colour = CHANNEL_NAMES.iter().enumerate().map(|(index, name)| {
+fn channels(picture: &Picture, options: &ExrOptions) -> AnyChannels<FlatSamples> {
+    let count = if options.channels == Channels::Rgba { 4 } else { 3 };
+    let colour = CHANNEL_NAMES.iter().enumerate().take(count).map(|(index, name)| {
         let values = picture.rgba.iter().map(|pixel| pixel[index]);
-        let samples = match precision {
+        let samples = match options.precision {
             Precision::Half => FlatSamples::F16(values.map(|value| f16::from_f32(clamped(value))).collect()),
             Precision::Float => FlatSamples::F32(values.collect()),
         };

@@ -1,6 +1,6 @@
 //! Pictures to and from files: `OpenEXR` with metadata, PNG with 8 and 16 bits, atomic writes.
 //!
-//! - [`write_exr`], [`read_exr`]: scene-linear Rec.709 in cd/m^2 with depth, camera, place and scene hash.
+//! - [`write_exr`], [`read_exr`]: scene-linear light with depth, camera, place, unit, primaries and scene hash.
 //! - [`write_png8`], [`write_png16`]: display-referred sRGB with the scene hash in a text chunk.
 //! - [`read_picture_header`], [`is_finished`]: what a file says about itself, without decoding its pixels.
 //! - [`atomic`]: a file appears under its name complete or not at all.
@@ -22,7 +22,7 @@ mod png_write;
 pub use destination::Destination;
 pub use error::IoError;
 pub use exr_read::read_exr;
-pub use exr_write::{Compression, ExrOptions, Precision, SKY_DEPTH_M, WriteReport, write_exr};
+pub use exr_write::{Channels, Compression, ExrOptions, Precision, SKY_DEPTH_M, WriteReport, write_exr};
 pub use header::{PictureFormat, PictureHeader, is_finished, read_picture_header};
-pub use picture::{MAX_PIXELS, MAX_SIDE_PX, Picture, PictureMetadata, check_size};
+pub use picture::{MAX_PIXELS, MAX_SIDE_PX, Picture, PictureMetadata, Projection, check_size};
 pub use png_write::{write_png8, write_png16};

@@ -1,5 +1,7 @@
 //! Pixels and what is said about them.
 
+use tyndall_core::primaries::RgbPrimaries;
+
 use crate::IoError;
 
 /// Longest side that is written or read, in pixels. Twice the largest picture of a scene, for panoramas.
@@ -8,15 +10,28 @@ pub const MAX_SIDE_PX: u32 = 32_768;
 /// Most pixels that are written or read: a square picture of 16,384 x 16,384, 4 GiB of colour in memory.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
-/// A picture in scene-linear Rec.709 [cd/m^2], associated alpha, row 0 on top.
+/// A picture in scene-linear light, associated alpha, row 0 on top. Primaries and unit are Rec.709 and cd/m^2 unless its
+/// metadata says otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// Width and height.
     pub size_px: [u32; 2],
-    /// Red, green, blue [cd/m^2] and alpha, row by row.
+    /// Red, green, blue and alpha, row by row.
     pub rgba: Vec<[f32; 4]>,
     /// Planar view distance of each pixel in metres; [`SKY_DEPTH_M`](crate::SKY_DEPTH_M) where nothing stands.
     pub depth_m: Option<Vec<f32>>,
+}
+
+/// How the directions of view lie in a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projection {
+    /// As a camera sees: the entries of the camera are written.
+    #[default]
+    Perspective,
+    /// All around, as on a map of the world (`envmap` latlong).
+    LatLong,
+    /// Several views in one picture, such as the faces of a cube.
+    Assembled,
 }
 
 /// What a picture file says about its making. Empty texts are not written.
@@ -28,6 +43,12 @@ pub struct PictureMetadata {
     pub scene_hash: String,
     /// Title of the scene.
     pub title: String,
+    /// Primaries of the colours.
+    pub primaries: RgbPrimaries,
+    /// Luminance of the colour (1, 1, 1) in cd/m^2: what the numbers of the file count.
+    pub white_luminance_cd_m2: f32,
+    /// How the directions of view lie in the picture.
+    pub projection: Projection,
     /// World to camera in `OpenEXR`'s convention: row vectors, the translation in elements 12 to 14, camera space in
     /// metres with x to the right, y up, z forward (left-handed).
     pub world_to_camera: [f32; 16],
@@ -57,6 +78,9 @@ impl Default for PictureMetadata {
             software: format!("tyndall {}", env!("CARGO_PKG_VERSION")),
             scene_hash: String::new(),
             title: String::new(),
+            primaries: RgbPrimaries::Rec709,
+            white_luminance_cd_m2: 1.0,
+            projection: Projection::Perspective,
             world_to_camera: identity,
             near_m: 0.1,
             field_of_view_rad: std::f32::consts::FRAC_PI_3,

@@ -5,13 +5,15 @@ use std::io::BufReader;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use tyndall_core::primaries::RgbPrimaries;
 use tyndall_io::{
-    Compression, Destination, ExrOptions, IoError, MAX_SIDE_PX, Picture, PictureFormat, PictureMetadata, Precision,
-    SKY_DEPTH_M, is_finished, read_exr, read_picture_header, write_exr, write_png8, write_png16,
+    Channels, Compression, Destination, ExrOptions, IoError, MAX_SIDE_PX, Picture, PictureFormat, PictureMetadata,
+    Precision, Projection, SKY_DEPTH_M, is_finished, read_exr, read_picture_header, write_exr, write_png8, write_png16,
 };
 
-const FLOAT_ZIPS: ExrOptions = ExrOptions { precision: Precision::Float, compression: Compression::Zips };
-const HALF_ZIPS: ExrOptions = ExrOptions { precision: Precision::Half, compression: Compression::Zips };
+const FLOAT_ZIPS: ExrOptions =
+    ExrOptions { precision: Precision::Float, compression: Compression::Zips, channels: Channels::Rgba };
+const HALF_ZIPS: ExrOptions = ExrOptions { precision: Precision::Half, ..FLOAT_ZIPS };
 
 /// Values over eight decades, no two pixels alike.
 fn picture() -> Picture {
@@ -45,12 +47,34 @@ fn float_pixels_and_depth_come_back_exactly_with_every_compression() {
     let folder = tempfile::tempdir().unwrap();
     for compression in [Compression::None, Compression::Rle, Compression::Zips, Compression::Zip, Compression::Piz] {
         let path = folder.path().join(format!("{compression:?}.exr"));
-        let options = ExrOptions { precision: Precision::Float, compression };
+        let options = ExrOptions { compression, ..FLOAT_ZIPS };
         let report = write_exr(&path, &picture(), &metadata(), &options).unwrap();
         assert_eq!(report.bytes, fs::metadata(&path).unwrap().len(), "{compression:?}: size of the file");
         assert_eq!(report.clamped_pixels, 0, "{compression:?}: floats are never clamped");
         assert_eq!(read_exr(&path).unwrap().0, picture(), "{compression:?}: pixels");
     }
+}
+
+#[test]
+fn a_panorama_keeps_its_unit_and_primaries_and_has_no_camera() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("sky.exr");
+    let written = PictureMetadata {
+        primaries: RgbPrimaries::AcesCg,
+        white_luminance_cd_m2: 683.0,
+        projection: Projection::LatLong,
+        ..PictureMetadata::default()
+    };
+    let options = ExrOptions { channels: Channels::Rgb, ..FLOAT_ZIPS };
+    let picture = Picture { depth_m: None, ..picture() };
+    write_exr(&path, &picture, &written, &options).unwrap();
+    let (pixels, back) = read_exr(&path).unwrap();
+    assert_eq!(back, written, "unit, primaries and projection");
+    assert_eq!(pixels, picture, "alpha is 1 where the file has none");
+    let file = BufReader::new(fs::File::open(&path).unwrap());
+    let header = exr::meta::MetaData::read_from_buffered(file, false).unwrap().headers.remove(0);
+    assert_eq!(header.own_attributes.world_to_camera, None, "no camera sees everything");
+    assert_eq!(header.channels.list.len(), 3, "R, G and B alone");
 }
 
 #[test]
