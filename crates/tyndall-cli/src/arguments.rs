@@ -3,7 +3,9 @@
 use clap::{ArgAction, Parser};
 
 use crate::Exit;
+use crate::cubemap::CubemapArguments;
 use crate::doctor::DoctorArguments;
+use crate::hdri::HdriArguments;
 use crate::params::ParamsArguments;
 use crate::presets::PresetsArguments;
 use crate::render::RenderArguments;
@@ -15,6 +17,7 @@ Examples:
   tyndall render preset:noon -o noon.png
   tyndall presets sunset > evening.toml
   tyndall render evening.toml -o evening.exr --size 1920x1080 --set sun.elevation_deg=2.5
+  tyndall hdri preset:noon -o sky.exr --sun lamp
   tyndall params sun
   tyndall doctor";
 
@@ -36,6 +39,10 @@ pub struct Arguments {
 pub enum Subcommand {
     /// Render a scene to a PNG, EXR or JPEG file
     Render(RenderArguments),
+    /// Write the light from all around as an equirectangular EXR, with the sun beside it for a lamp
+    Hdri(HdriArguments),
+    /// Write what is all around as the six faces of a cube, in files of their own or in one
+    Cubemap(CubemapArguments),
     /// List the parameters of scenes: default, unit, range, what each does
     Params(ParamsArguments),
     /// Print the JSON schema of scene files, for editors

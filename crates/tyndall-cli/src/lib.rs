@@ -1,6 +1,6 @@
 //! The command line program `tyndall`: renders scene files without a window.
 //!
-//! One module per subcommand: [`render`], [`params`], [`schema`], [`presets`], [`doctor`]. What they share: [`exit`] (the
+//! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`params`], [`schema`], [`presets`], [`doctor`]. What they share: [`exit`] (the
 //! codes that scripts and render farms go by), [`failure`] (which error ends with which code, and the one sentence that the
 //! user reads), [`values`] (what options take), [`interrupt`] (Ctrl-C and termination) and [`progress`].
 //!
@@ -8,10 +8,13 @@
 //! carries one JSON object a line.
 
 mod arguments;
+pub mod cubemap;
 pub mod doctor;
 pub mod exit;
 pub mod failure;
+pub mod hdri;
 pub mod interrupt;
+pub mod light;
 mod log;
 mod output;
 pub mod params;
@@ -54,6 +57,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(subcommand: &Subcommand) -> Result<(), Failure> {
     match subcommand {
         Subcommand::Render(arguments) => render::run(arguments),
+        Subcommand::Hdri(arguments) => hdri::run(arguments),
+        Subcommand::Cubemap(arguments) => cubemap::run(arguments),
         Subcommand::Params(arguments) => params::run(arguments),
         Subcommand::Schema => schema::run(),
         Subcommand::Presets(arguments) => presets::run(arguments),

@@ -4,12 +4,12 @@
 //! the file. Then the frame is drawn, on a second device if the first one is lost, and the file appears complete or not at
 //! all. The same command on the same adapter gives the same bytes.
 
-mod format;
-mod frame;
-mod header;
-mod memory;
-mod source;
-mod write;
+pub(crate) mod format;
+pub(crate) mod frame;
+pub(crate) mod header;
+pub(crate) mod memory;
+pub(crate) mod source;
+pub(crate) mod write;
 
 use std::path::PathBuf;
 
@@ -99,10 +99,7 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
 
 /// The scene with everything that the command line changes in it.
 fn scene_of(arguments: &RenderArguments) -> Result<Scene, Failure> {
-    let mut scene = source::load(&arguments.scene)?;
-    for (path, value) in &arguments.set {
-        scene.set_text(path, value)?;
-    }
+    let mut scene = source::load_with(&arguments.scene, &arguments.set)?;
     if let Some([width_px, height_px]) = arguments.size {
         scene.set("image.width_px", width_px.into())?;
         scene.set("image.height_px", height_px.into())?;

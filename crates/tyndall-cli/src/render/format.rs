@@ -60,7 +60,7 @@ pub enum OutputFormat {
 
 impl OutputFormat {
     /// Options of the EXR writer; its defaults for other formats.
-    pub(super) fn exr_options(self) -> ExrOptions {
+    pub(crate) fn exr_options(self) -> ExrOptions {
         match self {
             Self::Exr(precision, compression) => ExrOptions { precision, compression, ..ExrOptions::default() },
             Self::Png(_) | Self::Jpeg => ExrOptions::default(),

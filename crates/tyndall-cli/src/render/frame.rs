@@ -29,17 +29,17 @@ pub(super) struct Job<'a> {
 
 /// A frame in the computer's own memory.
 #[derive(Debug)]
-pub(super) struct Frame {
-    pub(super) size_px: [u32; 2],
-    pub(super) pixels: Pixels,
-    pub(super) adapter: String,
-    pub(super) ev100: f64,
-    pub(super) passes: Vec<PassTiming>,
+pub(crate) struct Frame {
+    pub(crate) size_px: [u32; 2],
+    pub(crate) pixels: Pixels,
+    pub(crate) adapter: String,
+    pub(crate) ev100: f64,
+    pub(crate) passes: Vec<PassTiming>,
 }
 
 /// Pixels as the file wants them, row 0 on top.
 #[derive(Debug)]
-pub(super) enum Pixels {
+pub(crate) enum Pixels {
     /// Developed, 8 bits.
     Eight(Vec<[u8; 4]>),
     /// Developed, 16 bits.
@@ -66,10 +66,10 @@ impl Job<'_> {
 
         self.stage(Stage::Frame)?;
         let submission = renderer.render(&gpu, self.scene, &mut target)?;
-        self.wait(&gpu, &submission)?;
+        wait(&gpu, &submission, self.interrupt)?;
 
         self.stage(Stage::ReadBack)?;
-        let pixels = self.read(&gpu, &target)?;
+        let pixels = read(&gpu, &target, self.format)?;
         let ev100 = renderer.read_ev100(&gpu)?;
         let passes = renderer.timings(&gpu)?;
         gpu.check()?;
@@ -80,32 +80,36 @@ impl Job<'_> {
         self.interrupt.check()?;
         self.progress.stage(stage)
     }
+}
 
-    /// Waits for the GPU, and for a signal.
-    fn wait(&self, gpu: &Gpu, submission: &SubmissionIndex) -> Result<(), Failure> {
-        let slice = || PollType::Wait { submission_index: Some(submission.clone()), timeout: Some(WAIT_SLICE) };
-        while let Err(PollError::Timeout) = gpu.device.poll(slice()) {
-            gpu.check()?;
-            self.interrupt.check()?;
-        }
-        Ok(gpu.check()?)
+/// Waits for the GPU, and for a signal.
+pub(crate) fn wait(gpu: &Gpu, submission: &SubmissionIndex, interrupt: &Interrupt) -> Result<(), Failure> {
+    let slice = || PollType::Wait { submission_index: Some(submission.clone()), timeout: Some(WAIT_SLICE) };
+    while let Err(PollError::Timeout) = gpu.device.poll(slice()) {
+        gpu.check()?;
+        interrupt.check()?;
     }
+    Ok(gpu.check()?)
+}
 
-    fn read(&self, gpu: &Gpu, target: &FrameTarget) -> Result<Pixels, Failure> {
-        Ok(match self.format {
-            OutputFormat::Png(Bits::Eight) | OutputFormat::Jpeg => Pixels::Eight(target.read_picture8(gpu)?),
-            OutputFormat::Png(Bits::Sixteen) => Pixels::Sixteen(target.read_picture16(gpu)?),
-            OutputFormat::Exr(..) => Pixels::Light(Picture {
-                size_px: target.size_px(),
-                rgba: target.read_radiance(gpu)?,
-                depth_m: Some(target.read_depth_m(gpu)?),
-            }),
-        })
-    }
+/// The pixels of a target as the format wants them.
+pub(crate) fn read(gpu: &Gpu, target: &FrameTarget, format: OutputFormat) -> Result<Pixels, Failure> {
+    Ok(match format {
+        OutputFormat::Png(Bits::Eight) | OutputFormat::Jpeg => Pixels::Eight(target.read_picture8(gpu)?),
+        OutputFormat::Png(Bits::Sixteen) => Pixels::Sixteen(target.read_picture16(gpu)?),
+        OutputFormat::Exr(..) => Pixels::Light(Picture {
+            size_px: target.size_px(),
+            rgba: target.read_radiance(gpu)?,
+            depth_m: Some(target.read_depth_m(gpu)?),
+        }),
+    })
 }
 
 /// Tries again after a lost device, which may have been a moment's trouble of the driver, but not a third time.
-fn twice<T>(mut attempt: impl FnMut() -> Result<T, Failure>, warn: impl FnOnce(&Failure)) -> Result<T, Failure> {
+pub(crate) fn twice<T>(
+    mut attempt: impl FnMut() -> Result<T, Failure>,
+    warn: impl FnOnce(&Failure),
+) -> Result<T, Failure> {
     match attempt() {
         Err(failure) if failure.is_lost_device() => {
             warn(&failure);
@@ -116,7 +120,7 @@ fn twice<T>(mut attempt: impl FnMut() -> Result<T, Failure>, warn: impl FnOnce(&
 }
 
 /// Precision of the frame: the app's own for its picture, more where the file keeps more.
-fn config(format: OutputFormat) -> RendererConfig {
+pub(crate) fn config(format: OutputFormat) -> RendererConfig {
     match format {
         OutputFormat::Png(Bits::Eight) | OutputFormat::Jpeg => {
             RendererConfig { frame: FrameFormat::Half, picture: PictureFormat::Eight }

@@ -2,22 +2,22 @@
 
 use tyndall_io::PictureMetadata;
 use tyndall_scene::camera::{CameraFrame, NEAR_M};
-use tyndall_scene::{CameraParams, Scene, SunPosition};
+use tyndall_scene::{Scene, SunPosition};
 
 use super::frame::Frame;
 
 /// Header entry with the adapter's name: the same scene gives the same bytes on the same adapter only.
-const ADAPTER: &str = "tyndall/adapter";
+pub(crate) const ADAPTER: &str = "tyndall/adapter";
 
 /// Metadata of a frame of the scene.
-pub(super) fn metadata(scene: &Scene, frame: &Frame) -> PictureMetadata {
+pub(crate) fn metadata(scene: &Scene, frame: &Frame) -> PictureMetadata {
     let place = (scene.sun.position == SunPosition::Date).then_some(&scene.sun);
     #[expect(clippy::cast_possible_truncation, reason = "EXR stores these as f32")]
     PictureMetadata {
         scene_hash: scene.hash().to_string(),
         title: scene.title.clone(),
         comments: scene.description.clone(),
-        world_to_camera: world_to_camera(&scene.grounded().camera),
+        world_to_camera: world_to_camera(&CameraFrame::new(&scene.grounded().camera)),
         near_m: NEAR_M as f32,
         field_of_view_rad: scene.camera.field_of_view_deg.to_radians() as f32,
         latitude_deg: place.map(|sun| sun.latitude_deg),
@@ -31,13 +31,15 @@ pub(super) fn metadata(scene: &Scene, frame: &Frame) -> PictureMetadata {
 /// The camera in `OpenEXR`'s convention. Its row vectors read our columns as rows, so that the transposed matrix has our
 /// memory layout; its camera looks along +z, ours along -z.
 #[expect(clippy::cast_possible_truncation, reason = "EXR stores the matrix as f32")]
-fn world_to_camera(camera: &CameraParams) -> [f32; 16] {
-    let columns = CameraFrame::new(camera).view_from_world().to_cols_array();
+pub(crate) fn world_to_camera(camera: &CameraFrame) -> [f32; 16] {
+    let columns = camera.view_from_world().to_cols_array();
     std::array::from_fn(|index| if index % 4 == 2 { -columns[index] as f32 } else { columns[index] as f32 })
 }
 
 #[cfg(test)]
 mod tests {
+    use tyndall_scene::CameraParams;
+
     use super::*;
     use crate::render::frame::Pixels;
 
@@ -55,7 +57,7 @@ mod tests {
     #[test]
     fn a_point_in_front_of_the_camera_has_positive_z_in_the_header() {
         let camera = CameraParams { altitude_m: 2.0, pitch_deg: 0.0, heading_deg: 90.0, ..CameraParams::default() };
-        let matrix = world_to_camera(&camera);
+        let matrix = world_to_camera(&CameraFrame::new(&camera));
         // East of a camera that looks east: 10 m ahead, 3 m to its left (north), 1 m above it.
         let seen = transform([10.0, 3.0, 3.0], &matrix);
         for (value, expected) in seen.into_iter().zip([-3.0, 1.0, 10.0]) {

@@ -7,7 +7,7 @@ use tyndall_render::{FrameTarget, RendererConfig};
 use super::format::{Bits, OutputFormat};
 
 /// Refuses a picture that does not fit into the memory budget.
-pub(super) fn check_budget(
+pub(crate) fn check_budget(
     gpu: &Gpu,
     size_px: [u32; 2],
     format: OutputFormat,

@@ -1,4 +1,4 @@
-//! Where a scene comes from: a file, or the program itself.
+//! Where a scene comes from: a file, or the program itself; and what the command line changes in it.
 
 use std::path::Path;
 
@@ -10,12 +10,22 @@ use crate::{Failure, presets};
 const PRESET: &str = "preset:";
 
 /// Loads the scene that a user names.
-pub(super) fn load(source: &Path) -> Result<Scene, Failure> {
+pub(crate) fn load(source: &Path) -> Result<Scene, Failure> {
     let file = match source.to_str().and_then(|text| text.strip_prefix(PRESET)) {
         Some(name) => presets::find(name)?.load()?,
         None => SceneFile::load(source)?,
     };
     Ok(file.scene)
+}
+
+/// The scene that a user names, with these parameters changed.
+pub(crate) fn load_with(source: &Path, settings: &[(String, String)]) -> Result<Scene, Failure> {
+    let mut scene = load(source)?;
+    for (path, value) in settings {
+        scene.set_text(path, value)?;
+    }
+    scene.check()?;
+    Ok(scene)
 }
 
 #[cfg(test)]

@@ -18,17 +18,17 @@ const JPEG_QUALITY: u8 = 92;
 
 /// What became of the pixels.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Written {
+pub(crate) struct Written {
     /// Size of the file.
-    pub(super) bytes: u64,
+    pub(crate) bytes: u64,
     /// Pixels that are brighter than the file can say.
-    pub(super) clamped_pixels: usize,
+    pub(crate) clamped_pixels: usize,
     /// Luminance lost by that, as a share of the picture's.
-    pub(super) clamped_luminance_share: f64,
+    pub(crate) clamped_luminance_share: f64,
 }
 
 /// Writes the file, complete or not at all; a signal stops it.
-pub(super) fn write(
+pub(crate) fn write(
     path: &Path,
     frame: &Frame,
     format: OutputFormat,
