@@ -70,7 +70,7 @@ fn metadata(arguments: &CubemapArguments, scene: &Scene, frame: &Frame) -> Pictu
 }
 
 fn face_metadata(arguments: &CubemapArguments, scene: &Scene, frame: &Frame, face: CubeFace) -> PictureMetadata {
-    let camera = face.frame(CameraFrame::new(&scene.camera).position);
+    let camera = face.frame(CameraFrame::new(&scene.grounded().camera).position);
     PictureMetadata {
         world_to_camera: header::world_to_camera(&camera),
         field_of_view_rad: FRAC_PI_2,

@@ -14,7 +14,7 @@ mod sun_light;
 mod unit;
 
 use tyndall_gpu::Gpu;
-use tyndall_scene::{Scene, SkyMode};
+use tyndall_scene::{LandscapeKind, Scene, SkyMode};
 
 pub use sun_light::SunLight;
 pub use unit::{BLENDER_LUMENS_PER_WATT, LightUnit};
@@ -117,7 +117,7 @@ impl Renderer {
 
 /// Whether a panorama cannot be drawn pixel by pixel, because something stands in the scene as triangles.
 fn is_rasterized(scene: &Scene) -> bool {
-    scene.sky.mode == SkyMode::VertexDome
+    scene.sky.mode == SkyMode::VertexDome || scene.landscape.kind != LandscapeKind::None
 }
 
 /// Radiance of a target (cd/m^2), black where the ground is if so wanted.

@@ -33,7 +33,8 @@ pub struct SunLight {
 }
 
 impl SunLight {
-    /// Of a scene; `None` when no part of the disc is above the horizon. Whether the scene draws the disc does not matter.
+    /// Of a scene; `None` when no part of the disc is above the horizon. Whether the scene draws the disc does not matter,
+    /// nor what stands in front of it.
     ///
     /// # Errors
     /// When the scene has no sun position, or its atmosphere not the eight wavelengths.
@@ -102,8 +103,8 @@ struct Disc {
 
 impl Disc {
     fn new(scene: &Scene) -> Result<Self, RenderError> {
-        let atmosphere = Atmosphere::new(&scene.atmosphere, &scene.ground);
-        let altitude_m = scene.camera.altitude_m;
+        let atmosphere = scene.model();
+        let altitude_m = scene.grounded().camera.altitude_m;
         let horizon_elevation = horizon_elevation(atmosphere.planet_radius_m, altitude_m);
         let straight = || RefractionTable::straight(horizon_elevation);
         Ok(Self {
