@@ -73,6 +73,8 @@ impl Place {
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(tyndall_binary());
         command.current_dir(self.0.path()).args(arguments).env_remove("TYNDALL_FAULT").env_remove("RUST_LOG");
+        // Tests share their tables, and leave those of the user alone.
+        command.env(tyndall_io::CACHE_VARIABLE, concat!(env!("CARGO_TARGET_TMPDIR"), "/tables"));
         command
     }
 

@@ -14,6 +14,7 @@ use tyndall_io::atomic::check_writable;
 use tyndall_render::{CubeFace, FrameTarget, Renderer, View};
 use tyndall_scene::{ExposureMode, Scene};
 
+use crate::cache::CacheArguments;
 use crate::interrupt::Interrupt;
 use crate::light::{GroundName, SunName, UnitName, convert_pixels};
 use crate::progress::{Progress, ProgressFormat, Stage};
@@ -75,6 +76,9 @@ pub struct CubemapArguments {
     /// Most memory for the pictures, such as 8G; by default what the system has to spare
     #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
     pub max_memory: Option<u64>,
+    /// Whether tables are kept between runs.
+    #[command(flatten)]
+    pub cache: CacheArguments,
     /// How to report progress
     #[arg(long, value_name = "READER", value_enum, default_value_t)]
     pub progress: ProgressFormat,
@@ -182,6 +186,7 @@ fn draw(
     check_budget(&gpu, size_px, format, config)?;
     stage(Stage::Pipelines)?;
     let mut renderer = Renderer::new(&gpu, config)?;
+    renderer.set_table_store(arguments.cache.store());
     let mut target = FrameTarget::new(&gpu, size_px, config)?;
     stage(Stage::Frame)?;
     let ev100 = renderer.meter_scene(&gpu, scene)?;

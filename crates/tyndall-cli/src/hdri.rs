@@ -17,6 +17,7 @@ use tyndall_render::environment::{Environment, EnvironmentOptions, PANORAMA_WIDT
 use tyndall_render::{FrameFormat, FrameTarget, Renderer, RendererConfig};
 use tyndall_scene::Scene;
 
+use crate::cache::CacheArguments;
 use crate::interrupt::Interrupt;
 use crate::light::{GroundName, PrimariesName, SunName, UnitName, convert_pixels};
 use crate::progress::{Progress, ProgressFormat, Stage};
@@ -83,6 +84,9 @@ pub struct HdriArguments {
     /// Most memory for the picture, such as 8G; by default what the system has to spare
     #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
     pub max_memory: Option<u64>,
+    /// Whether tables are kept between runs.
+    #[command(flatten)]
+    pub cache: CacheArguments,
     /// How to report progress
     #[arg(long, value_name = "READER", value_enum, default_value_t)]
     pub progress: ProgressFormat,
@@ -164,6 +168,7 @@ fn capture(
     check_budget(&gpu, arguments.options().size_px()?)?;
     stage(Stage::Pipelines)?;
     let mut renderer = Renderer::new(&gpu, CONFIG)?;
+    renderer.set_table_store(arguments.cache.store());
     stage(Stage::Frame)?;
     let light = renderer.capture_environment(&gpu, scene, arguments.options())?;
     gpu.check()?;

@@ -8,6 +8,7 @@
 //! carries one JSON object a line.
 
 mod arguments;
+pub mod cache;
 pub mod cubemap;
 pub mod doctor;
 pub mod exit;

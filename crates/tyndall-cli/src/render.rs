@@ -18,6 +18,7 @@ use tyndall_gpu::{AdapterChoice, GpuOptions, PassTiming};
 use tyndall_io::atomic::check_writable;
 use tyndall_scene::Scene;
 
+use crate::cache::CacheArguments;
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, ProgressFormat, Stage};
 use crate::values::{parse_bytes, parse_setting, parse_size_px};
@@ -60,6 +61,9 @@ pub struct RenderArguments {
     /// Most memory for the picture, such as 8G; by default what the system has to spare
     #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
     pub max_memory: Option<u64>,
+    /// Whether tables are kept between runs.
+    #[command(flatten)]
+    pub cache: CacheArguments,
     /// How to report progress
     #[arg(long, value_name = "READER", value_enum, default_value_t)]
     pub progress: ProgressFormat,
@@ -87,7 +91,8 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
     check_writable(&arguments.output)?;
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
     let options = GpuOptions { adapter: arguments.adapter.clone(), max_memory_bytes: arguments.max_memory };
-    let job = Job { scene: &scene, format, options: &options, interrupt: &interrupt, progress };
+    let cache = arguments.cache;
+    let job = Job { scene: &scene, format, options: &options, cache, interrupt: &interrupt, progress };
     let frame = job.run()?;
 
     progress.stage(Stage::File)?;

@@ -7,6 +7,7 @@
 //! - [`metaball`]: the field of the balls that clouds and smoke are made of, its columns and its mass.
 //! - [`primaries`]: colour spaces of linear RGB in files.
 //! - [`spectrum`]: the eight wavelengths of all light transport and their map to linear Rec.709.
+//! - [`table_store`]: where slow tables may be kept between runs.
 //! - [`units`]: conversions at the edges of the program; inside it everything is metres, seconds, radians, kelvin.
 
 pub mod grid;
@@ -16,6 +17,7 @@ pub mod params;
 pub mod primaries;
 pub mod rng;
 pub mod spectrum;
+pub mod table_store;
 pub mod units;
 
 pub use params::{ParamError, ParamInfo, ParamKind, ParamSet, Scale};

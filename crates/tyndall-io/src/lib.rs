@@ -3,6 +3,7 @@
 //! - [`write_exr`], [`read_exr`]: scene-linear light with depth, camera, place, unit, primaries and scene hash.
 //! - [`write_png8`], [`write_png16`]: display-referred sRGB with the scene hash in a text chunk.
 //! - [`read_picture_header`], [`is_finished`]: what a file says about itself, without decoding its pixels.
+//! - [`TableFolder`]: tables kept between runs, in the user's cache.
 //! - [`atomic`]: a file appears under its name complete or not at all.
 //!
 //! Nothing here knows a GPU; a simulation's user has the writers without one. Not done: tiles, several parts, deep
@@ -18,6 +19,7 @@ mod exr_write;
 mod header;
 mod picture;
 mod png_write;
+mod table_folder;
 
 pub use destination::Destination;
 pub use error::IoError;
@@ -26,3 +28,4 @@ pub use exr_write::{Channels, Compression, ExrOptions, Precision, SKY_DEPTH_M, W
 pub use header::{PictureFormat, PictureHeader, is_finished, read_picture_header};
 pub use picture::{MAX_PIXELS, MAX_SIDE_PX, Picture, PictureMetadata, Projection, check_size};
 pub use png_write::{write_png8, write_png16};
+pub use table_folder::{CACHE_VARIABLE, TableFolder};

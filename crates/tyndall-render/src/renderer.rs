@@ -1,5 +1,8 @@
 //! The frame: tables, ground and sky, metering, development.
 
+use std::sync::Arc;
+
+use tyndall_core::table_store::TableStore;
 use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, PassTiming};
 use tyndall_scattering::dome::Dome;
@@ -187,6 +190,12 @@ impl Renderer {
     #[must_use]
     pub fn tables(&self) -> &SkyTables {
         &self.tables
+    }
+
+    /// Chooses where slow tables are kept between runs; nowhere unless chosen. A software adapter's table of all orders of
+    /// scattering is such a table; GPUs make theirs faster than a file is read. A kept table has the bits of a new one.
+    pub fn set_table_store(&mut self, store: Option<Arc<dyn TableStore>>) {
+        self.tables.set_store(store);
     }
 
     /// Chooses when the slow table of all orders is made; at first the frame waits for it.

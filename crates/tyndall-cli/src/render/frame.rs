@@ -11,6 +11,7 @@ use tyndall_scene::Scene;
 use super::format::{Bits, OutputFormat};
 use super::memory::check_budget;
 use crate::Failure;
+use crate::cache::CacheArguments;
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, Stage};
 
@@ -23,6 +24,7 @@ pub(super) struct Job<'a> {
     pub(super) scene: &'a Scene,
     pub(super) format: OutputFormat,
     pub(super) options: &'a GpuOptions,
+    pub(super) cache: CacheArguments,
     pub(super) interrupt: &'a Interrupt,
     pub(super) progress: &'a Progress,
 }
@@ -62,6 +64,7 @@ impl Job<'_> {
 
         self.stage(Stage::Pipelines)?;
         let mut renderer = Renderer::new(&gpu, config)?;
+        renderer.set_table_store(self.cache.store());
         let mut target = FrameTarget::new(&gpu, size_px, config)?;
 
         self.stage(Stage::Frame)?;

@@ -4,6 +4,9 @@
 //! faster. Either way it is made anew only for another medium, ground or quality, while the frame waits or beside the
 //! frames ([`TableBuilding`]).
 
+use std::sync::Arc;
+
+use tyndall_core::table_store::TableStore;
 use tyndall_gpu::wgpu::BufferUsages;
 use tyndall_gpu::{Buffer, Gpu, Texture};
 use tyndall_scattering::orders::OrdersQuality;
@@ -85,6 +88,11 @@ impl OrdersTable {
             progress: TableProgress::default(),
             version: 0,
         })
+    }
+
+    /// Chooses where tables of the CPU are kept between runs.
+    pub fn set_store(&mut self, store: Option<Arc<dyn TableStore>>) {
+        self.cpu.set_store(store);
     }
 
     /// Chooses when tables are made; those under way are dropped.

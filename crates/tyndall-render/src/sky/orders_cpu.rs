@@ -6,12 +6,14 @@ use std::thread;
 use std::time::Instant;
 
 use tyndall_core::spectrum::WAVELENGTH_COUNT;
+use tyndall_core::table_store::TableStore;
 use tyndall_scattering::Atmosphere as Model;
 use tyndall_scattering::ScatteringError;
 use tyndall_scattering::atmosphere::{AEROSOL, AIR, OZONE};
 use tyndall_scattering::column_table::ColumnTable;
 use tyndall_scattering::march::Marcher;
 use tyndall_scattering::medium::Profile;
+use tyndall_scattering::orders::basis::harmonic_count;
 use tyndall_scattering::orders::{OrdersQuality, SourceTable};
 
 use super::building::Wake;
@@ -38,9 +40,14 @@ pub(super) struct Finished {
     pub(super) ms: f64,
 }
 
+/// Version of the tables' method and layout; raised when either changes, so that no older table is taken for a new one.
+const TABLE_VERSION: u32 = 1;
+
 /// Makes tables and remembers the columns of the last atmosphere.
 #[derive(Debug, Default)]
 pub(super) struct CpuBuilder {
+    /// Where tables are kept between runs.
+    store: Option<Arc<dyn TableStore>>,
     columns: Arc<Mutex<Option<(Shape, ColumnTable)>>>,
     jobs: Vec<Job>,
     /// Jobs started so far.
@@ -57,9 +64,23 @@ struct Job {
 }
 
 impl CpuBuilder {
-    /// Makes a table while the caller waits, on all threads.
+    /// Chooses where tables are kept between runs.
+    pub(super) fn set_store(&mut self, store: Option<Arc<dyn TableStore>>) {
+        self.store = store;
+    }
+
+    /// Makes a table while the caller waits, on all threads, unless an earlier run has kept it. Tables from threads of
+    /// their own are not kept: a slider that is dragged leaves hundreds behind.
     pub(super) fn build(&self, model: &Model, wanted: &Wanted) -> Result<Finished, ScatteringError> {
-        build(&self.columns, model, wanted)
+        let Some(store) = &self.store else { return build(&self.columns, model, wanted) };
+        let (started, key) = (Instant::now(), key(model, &wanted.quality));
+        if let Some(values) = store.load(&key).and_then(|bytes| values_from(&bytes, &wanted.quality)) {
+            return Ok(Finished { wanted: wanted.clone(), values, ms: started.elapsed().as_secs_f64() * 1e3 });
+        }
+        let table = build(&self.columns, model, wanted)?;
+        let bytes: Vec<u8> = table.values.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+        store.store(&key, &bytes);
+        Ok(table)
     }
 
     /// Sees to it that `wanted` is being made, or will be once there is room for another job.
@@ -117,6 +138,26 @@ impl CpuBuilder {
     }
 }
 
+/// Everything that a table follows from. The debug text holds every field with as many digits as tell it from its
+/// neighbours, those of later versions too.
+fn key(model: &Model, quality: &OrdersQuality) -> String {
+    format!("orders {TABLE_VERSION}, {PANELS} panels, {quality:?}, {model:?}")
+}
+
+/// The table of kept bytes; `None` if they are not as many as it has.
+fn values_from(bytes: &[u8], quality: &OrdersQuality) -> Option<Values> {
+    let (spectra, rest) = bytes.as_chunks::<{ 4 * WAVELENGTH_COUNT }>();
+    let count = quality.suns() * (quality.altitudes * harmonic_count(quality.degree) + 1);
+    if !rest.is_empty() || spectra.len() != count {
+        return None;
+    }
+    let spectrum = |bytes: &[u8; 4 * WAVELENGTH_COUNT]| {
+        let values = bytes.as_chunks::<4>().0;
+        std::array::from_fn(|k| f32::from_le_bytes(values[k]))
+    };
+    Some(spectra.iter().map(spectrum).collect())
+}
+
 fn build(
     columns: &Mutex<Option<(Shape, ColumnTable)>>,
     model: &Model,
@@ -155,6 +196,7 @@ fn marcher(columns: &Mutex<Option<(Shape, ColumnTable)>>, model: &Model) -> Resu
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
     use std::time::Duration;
 
     use tyndall_scattering::params::{AtmosphereParams, GroundParams};
@@ -218,5 +260,47 @@ mod tests {
         builder.outdate();
         woken.recv_timeout(PATIENCE).expect("a table in time");
         assert!(builder.take().is_none() && builder.jobs.is_empty(), "it is collected and not shown");
+    }
+
+    /// Keeps tables in memory, and counts what it is asked for.
+    #[derive(Debug, Default)]
+    struct Memory(Mutex<BTreeMap<String, Vec<u8>>>);
+
+    impl TableStore for Memory {
+        fn load(&self, key: &str) -> Option<Vec<u8>> {
+            self.0.lock().expect("no panic").get(key).cloned()
+        }
+
+        fn store(&self, key: &str, bytes: &[u8]) {
+            self.0.lock().expect("no panic").insert(key.to_owned(), bytes.to_vec());
+        }
+    }
+
+    fn with_store(store: &Arc<Memory>) -> CpuBuilder {
+        let mut builder = CpuBuilder::default();
+        builder.set_store(Some(Arc::<Memory>::clone(store)));
+        builder
+    }
+
+    #[test]
+    fn a_kept_table_has_the_bits_of_a_new_one() {
+        let store = Arc::new(Memory::default());
+        let (model, wanted) = atmosphere(300.0);
+        let made = with_store(&store).build(&model, &wanted).unwrap().values;
+        assert_eq!(store.0.lock().unwrap().len(), 1, "kept");
+        assert_eq!(with_store(&store).build(&model, &wanted).unwrap().values, made, "taken from the store");
+        assert_eq!(CpuBuilder::default().build(&model, &wanted).unwrap().values, made, "made without one");
+    }
+
+    #[test]
+    fn another_atmosphere_or_quality_has_another_key_and_bytes_of_another_size_are_refused() {
+        let (model, wanted) = atmosphere(300.0);
+        let coarser = OrdersQuality { altitudes: 3, ..QUALITY };
+        assert_ne!(key(&model, &QUALITY), key(&atmosphere(300.0000001).0, &QUALITY), "atmospheres");
+        assert_ne!(key(&model, &QUALITY), key(&model, &coarser), "qualities");
+        let store = Arc::new(Memory::default());
+        store.store(&key(&model, &QUALITY), &[0; 64]);
+        let values = with_store(&store).build(&model, &wanted).unwrap().values;
+        assert_eq!(values, CpuBuilder::default().build(&model, &wanted).unwrap().values, "made anew");
     }
 }

@@ -1,5 +1,8 @@
 //! The sky's tables on the GPU.
 
+use std::sync::Arc;
+
+use tyndall_core::table_store::TableStore;
 use tyndall_gpu::wgpu::{self, BufferUsages, TextureFormat, TextureUsages};
 use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, Shader, Texture, TextureDesc};
 use tyndall_scattering::Atmosphere as Model;
@@ -250,6 +253,11 @@ impl SkyTables {
     #[must_use]
     pub fn orders(&self) -> &OrdersTable {
         &self.orders
+    }
+
+    /// Chooses where tables of the CPU are kept between runs.
+    pub fn set_store(&mut self, store: Option<Arc<dyn TableStore>>) {
+        self.orders.set_store(store);
     }
 
     /// Chooses when the slow table of all orders is made.
