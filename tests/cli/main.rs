@@ -2,6 +2,7 @@
 
 mod outside;
 mod pictures;
+mod probe;
 mod program;
 mod progress;
 mod refusals;

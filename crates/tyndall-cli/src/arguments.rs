@@ -8,7 +8,9 @@ use crate::doctor::DoctorArguments;
 use crate::hdri::HdriArguments;
 use crate::params::ParamsArguments;
 use crate::presets::PresetsArguments;
+use crate::probe::ProbeArguments;
 use crate::render::RenderArguments;
+use crate::validate::ValidateArguments;
 
 const ABOUT: &str = "Renders skies from scene files, without a window and without a GPU if need be.";
 
@@ -18,6 +20,7 @@ Examples:
   tyndall presets sunset > evening.toml
   tyndall render evening.toml -o evening.exr --size 1920x1080 --set sun.elevation_deg=2.5
   tyndall hdri preset:noon -o sky.exr --sun lamp
+  tyndall validate sky preset:noon
   tyndall params sun
   tyndall doctor";
 
@@ -43,6 +46,10 @@ pub enum Subcommand {
     Hdri(HdriArguments),
     /// Write what is all around as the six faces of a cube, in files of their own or in one
     Cubemap(CubemapArguments),
+    /// Compute values at points and directions of your choice
+    Probe(ProbeArguments),
+    /// Tell how far the tables are from Monte-Carlo, in per cent, on your own scene
+    Validate(ValidateArguments),
     /// List the parameters of scenes: default, unit, range, what each does
     Params(ParamsArguments),
     /// Print the JSON schema of scene files, for editors

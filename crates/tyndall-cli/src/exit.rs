@@ -15,6 +15,8 @@ pub enum Exit {
     NoAdapter = 3,
     /// More memory is needed than allowed, or a size than the device has.
     OverBudget = 4,
+    /// `validate` found an error above the limit.
+    OverLimit = 5,
     /// The graphics device was lost, and lost again when tried once more.
     DeviceLost = 6,
     /// Terminated from outside; the same command starts over. Slurm takes it as `RequeueExit=75`.
@@ -25,12 +27,13 @@ pub enum Exit {
 
 impl Exit {
     /// Every code, in ascending order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Success,
         Self::Render,
         Self::Usage,
         Self::NoAdapter,
         Self::OverBudget,
+        Self::OverLimit,
         Self::DeviceLost,
         Self::Resumable,
         Self::Interrupted,
@@ -51,6 +54,7 @@ impl Exit {
             Self::Usage => "wrong command line, wrong scene, or no place for the result",
             Self::NoAdapter => "no graphics adapter, or none as asked for",
             Self::OverBudget => "more memory needed than --max-memory or the system allows",
+            Self::OverLimit => "validate: an error is above its limit",
             Self::DeviceLost => "graphics device lost twice in a row",
             Self::Resumable => "terminated; nothing half-written, the same command starts over",
             Self::Interrupted => "Ctrl-C; nothing half-written",
@@ -77,7 +81,7 @@ mod tests {
 
     #[test]
     fn exit_codes_are_those_that_scripts_rely_on() {
-        assert_eq!(Exit::ALL.map(Exit::code), [0, 1, 2, 3, 4, 6, 75, 130], "published codes never change");
+        assert_eq!(Exit::ALL.map(Exit::code), [0, 1, 2, 3, 4, 5, 6, 75, 130], "published codes never change");
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::io;
 use tyndall_gpu::GpuError;
 use tyndall_io::IoError;
 use tyndall_render::RenderError;
+use tyndall_scattering::ScatteringError;
 use tyndall_scene::SceneError;
 
 use crate::Exit;
@@ -19,6 +20,12 @@ pub enum Failure {
     /// The scene, a `--set` or a `--size` is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The atmosphere, or what is asked of it, is wrong.
+    #[error(transparent)]
+    Scattering(#[from] ScatteringError),
+    /// An error that was measured is larger than allowed.
+    #[error("{0}")]
+    OverLimit(String),
     /// The graphics device refuses.
     #[error(transparent)]
     Gpu(#[from] GpuError),
@@ -54,7 +61,8 @@ impl Failure {
     #[must_use]
     pub fn exit(&self) -> Exit {
         match self {
-            Self::Usage(_) | Self::Scene(_) => Exit::Usage,
+            Self::Usage(_) | Self::Scene(_) | Self::Scattering(_) => Exit::Usage,
+            Self::OverLimit(_) => Exit::OverLimit,
             Self::Gpu(error) => exit_of_gpu(error),
             Self::Render(_) | Self::Stdout(_) | Self::Signals(_) => Exit::Render,
             Self::Io(error) => exit_of_io(error),

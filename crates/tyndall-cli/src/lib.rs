@@ -1,6 +1,7 @@
 //! The command line program `tyndall`: renders scene files without a window.
 //!
-//! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`params`], [`schema`], [`presets`], [`doctor`]. What they share: [`exit`] (the
+//! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`probe`], [`validate`], [`params`], [`schema`],
+//! [`presets`], [`doctor`]. What they share: [`exit`] (the
 //! codes that scripts and render farms go by), [`failure`] (which error ends with which code, and the one sentence that the
 //! user reads), [`values`] (what options take), [`interrupt`] (Ctrl-C and termination) and [`progress`].
 //!
@@ -20,9 +21,11 @@ mod log;
 mod output;
 pub mod params;
 pub mod presets;
+pub mod probe;
 pub mod progress;
 pub mod render;
 pub mod schema;
+pub mod validate;
 pub mod values;
 
 use std::ffi::OsString;
@@ -60,6 +63,8 @@ fn dispatch(subcommand: &Subcommand) -> Result<(), Failure> {
         Subcommand::Render(arguments) => render::run(arguments),
         Subcommand::Hdri(arguments) => hdri::run(arguments),
         Subcommand::Cubemap(arguments) => cubemap::run(arguments),
+        Subcommand::Probe(arguments) => probe::run(arguments),
+        Subcommand::Validate(arguments) => validate::run(arguments),
         Subcommand::Params(arguments) => params::run(arguments),
         Subcommand::Schema => schema::run(),
         Subcommand::Presets(arguments) => presets::run(arguments),

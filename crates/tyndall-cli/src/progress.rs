@@ -13,6 +13,9 @@ use crate::{Failure, output};
 /// Work shorter than this shows no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
 
+/// Share of the work after which the time that is left can be told.
+const TELLING_SHARE: f64 = 0.02;
+
 /// Who reads the progress.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum ProgressFormat {
@@ -98,6 +101,17 @@ impl Progress {
         self.event(&json!({ "event": "progress", "done": stage.share_done(), "stage": stage.text() }))
     }
 
+    /// Long work is done to this share (0 to 1).
+    ///
+    /// # Errors
+    /// When standard output refuses.
+    pub fn share(&self, text: &'static str, done: f64) -> Result<(), Failure> {
+        if let Some(bar) = &self.bar {
+            bar.show_share(text, done);
+        }
+        self.event(&json!({ "event": "progress", "done": done, "stage": text }))
+    }
+
     /// Something that the user should know, but that stops nothing.
     pub fn warn(&self, text: &str) {
         let warn = || output::warn(&format!("warning: {text}\n"));
@@ -161,8 +175,23 @@ impl Bar {
 
     fn show(&self, stage: Stage) {
         self.bar.set_message(stage.text());
-        #[expect(clippy::cast_possible_truncation, reason = "a share of 100")]
-        self.bar.set_position((100.0 * stage.share_done()).round() as u64);
+        self.set_share(stage.share_done());
+    }
+
+    /// Shows a share and, once there is something to tell from, the time that is left.
+    fn show_share(&self, text: &'static str, done: f64) {
+        let elapsed = self.bar.elapsed().as_secs_f64();
+        if done > TELLING_SHARE {
+            self.bar.set_message(format!("{text}, {:.0} s left", elapsed * (1.0 - done) / done));
+        } else {
+            self.bar.set_message(text);
+        }
+        self.set_share(done);
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "a share of 100")]
+    fn set_share(&self, done: f64) {
+        self.bar.set_position((100.0 * done).round() as u64);
     }
 }
 
