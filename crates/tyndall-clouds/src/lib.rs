@@ -1,11 +1,15 @@
 //! Clouds that form, drift and vanish: section 3.2 of the paper, without any GPU.
 //!
+//! - [`CloudSimulation`]: everything together, from [`CloudParams`]; [`VapourPattern::preset`] for five kinds of sky.
 //! - [`Automaton`]: humidity, activation and cloud of every cell, 32 heights in one word; [`dobashi2000`] is the same cell by
 //!   cell, for comparison.
-//! - [`ProbabilityLayer`]: where vapour is supplied and where cloud vanishes, as a stack of layers.
+//! - [`ProbabilityLayer`]: where vapour is supplied and where cloud vanishes, as a stack of layers:
+//!   [`HumidEllipsoids`], [`PaintedHumidity`], [`Terrain`], [`HeatSource`] and those of your own.
 //! - [`wind`]: a profile over height that moves everything by exact fractions of cells.
 //! - [`CloudDensity`]: the weighted mean over space and time, between steps too; [`ball_density`]: equation (3) on a grid.
 //! - [`sun_depth`]: the light volume, how much cloud lies between each cell and the sun.
+//! - [`Metaballs`]: lists of balls for splatting and for other programs.
+//! - [`mod@reference`]: single scattering by marching and all orders by Monte Carlo, to judge renderers by.
 //!
 //! x is east, y north, z the height; lengths are cells of the grid and times are steps, where nothing else is said.
 
@@ -15,16 +19,24 @@ pub mod bit_field;
 mod density;
 pub mod dobashi2000;
 mod edges;
+mod ellipsoids;
 mod error;
 mod fields;
 pub mod grid_size;
+mod metaballs;
 mod narrow;
+pub mod params;
 mod probability;
 mod probability_planes;
+pub mod reference;
 mod shift;
+mod simulation;
 pub mod smoothing;
+pub mod statistics;
 mod sun_depth;
+mod supply_layers;
 mod transition;
+pub mod vapour;
 pub mod wind;
 
 pub use automaton::{Automaton, AutomatonConfig};
@@ -32,9 +44,15 @@ pub use ball_lattice::{ball_density, ball_density_into};
 pub use bit_field::BitField;
 pub use density::CloudDensity;
 pub use edges::Edges;
+pub use ellipsoids::{Ellipsoid, EllipsoidSupply, HumidEllipsoids};
 pub use error::CloudError;
 pub use fields::CloudFields;
+pub use metaballs::{Metaball, Metaballs};
+pub use params::{CloudParams, VapourPattern};
 pub use probability::{Probabilities, ProbabilityLayer, ProbabilityRow};
+pub use simulation::CloudSimulation;
 pub use smoothing::SmoothingWindow;
+pub use statistics::CloudStatistics;
 pub use sun_depth::{sun_depth, sun_depth_into};
+pub use supply_layers::{HeatSource, PaintedHumidity, Terrain, TerrainLift};
 pub use wind::{Wind, WindKnot, WindProfile};

@@ -4,6 +4,9 @@
 //! often is written as a stack of layers: each layer changes the probabilities that the layers below it left, one row of
 //! cells at a time.
 
+use crate::CloudError;
+use crate::wind::Wind;
+
 /// Probabilities per step of one row of cells: one value per x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbabilityRow {
@@ -53,9 +56,26 @@ pub trait ProbabilityLayer: std::fmt::Debug + Send + Sync {
     fn apply(&self, y: usize, z: usize, row: &mut ProbabilityRow);
 
     /// Moves along with one step of the wind; true when probabilities changed by that.
-    fn blow(&mut self, wind: &crate::wind::Wind) -> bool {
+    fn blow(&mut self, wind: &Wind) -> bool {
         let _ = wind;
         false
+    }
+
+    /// What changes while the layer moves, as numbers for a file.
+    fn state(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Puts back what [`ProbabilityLayer::state`] gave.
+    ///
+    /// # Errors
+    /// When the numbers are not those of such a layer.
+    fn restore(&mut self, state: &[f64]) -> Result<(), CloudError> {
+        let found = state.len();
+        if found == 0 {
+            return Ok(());
+        }
+        Err(CloudError::WrongLength { what: "the state of a layer that does not move".to_owned(), found, expected: 0 })
     }
 }
 
