@@ -10,6 +10,9 @@ pub const SCENES: &[(&str, &str)] = &[
     ("high-altitude", include_str!("../scenes/high-altitude.toml")),
 ];
 
+/// The stars of the Bright Star Catalogue as comma-separated values; `assets/stars/README.md` says what and whence.
+pub const BRIGHT_STARS: &str = include_str!("../stars/bright_stars.csv");
+
 #[cfg(test)]
 mod tests {
     use super::SCENES;

@@ -9,6 +9,7 @@
 //! - [`landscape`]: heights of hills, mountains and cities.
 //! - [`camera`]: axes, rays and matrices of the camera, and how it moves.
 
+pub mod astronomy;
 mod brief;
 pub mod camera;
 mod command_line;
@@ -29,8 +30,8 @@ pub use error::SceneError;
 pub use file::{FORMAT, MAX_BYTES, SceneFile};
 pub use hash::SceneHash;
 pub use params::{
-    CameraParams, ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams, Orders, OrdersDetail, SkyMode,
-    SkyParams, SunParams, SunPosition, ToneMap,
+    CameraParams, ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams, MoonParams, MoonPhase,
+    MoonPosition, Orders, OrdersDetail, SkyMode, SkyParams, StarsParams, SunParams, SunPosition, ToneMap,
 };
 pub use place::Place;
 pub use preset::{Preset, presets};

@@ -7,7 +7,8 @@ use tyndall_scattering::refraction::RefractiveAir;
 use crate::landscape::Landscape;
 use crate::{
     Atmosphere, AtmosphereParams, CameraParams, FilmParams, GroundParams, HazeParams, ImageParams, LandscapeParams,
-    SceneError, SceneHash, SkyParams, SunDirection, SunParams, brief::brief, nearest::nearest, sun,
+    MoonParams, SceneError, SceneHash, SkyParams, StarsParams, SunDirection, SunParams, astronomy,
+    astronomy::MoonState, brief::brief, nearest::nearest, sun,
 };
 
 /// Everything that a picture depends on, and its title.
@@ -21,6 +22,10 @@ pub struct Scene {
     pub camera: CameraParams,
     /// Where the sun stands and what its disc looks like.
     pub sun: SunParams,
+    /// Where the moon stands and how it shines.
+    pub moon: MoonParams,
+    /// The stars and the glow of the night.
+    pub stars: StarsParams,
     /// Air, aerosol and ozone.
     pub atmosphere: AtmosphereParams,
     /// Haze or fog near the ground.
@@ -40,10 +45,12 @@ pub struct Scene {
 impl Scene {
     /// The groups with their names in scene files, in the order in which they are shown.
     #[must_use]
-    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 9] {
+    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 11] {
         [
             ("camera", &self.camera),
             ("sun", &self.sun),
+            ("moon", &self.moon),
+            ("stars", &self.stars),
             ("atmosphere", &self.atmosphere),
             ("haze", &self.haze),
             ("ground", &self.ground),
@@ -56,10 +63,12 @@ impl Scene {
 
     /// [`Scene::groups`], to change them.
     #[must_use]
-    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 9] {
+    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 11] {
         [
             ("camera", &mut self.camera),
             ("sun", &mut self.sun),
+            ("moon", &mut self.moon),
+            ("stars", &mut self.stars),
             ("atmosphere", &mut self.atmosphere),
             ("haze", &mut self.haze),
             ("ground", &mut self.ground),
@@ -107,7 +116,7 @@ impl Scene {
         if ozone_du > 0.0 && ozone_altitude_km > top_altitude_km {
             return Err(SceneError::OzoneAboveTop { ozone_altitude_km, top_altitude_km });
         }
-        self.sun_direction().map(|_direction| ())
+        self.moon().map(|_state| ())
     }
 
     /// Planet, air and ground as the model that all light transport reads, at the eight wavelengths.
@@ -123,6 +132,24 @@ impl Scene {
     pub fn sun_direction(&self) -> Result<SunDirection, SceneError> {
         check_group("sun", &self.sun)?;
         sun::direction(&self.sun)
+    }
+
+    /// Where the moon stands and how it is lit; `None` without a moon.
+    ///
+    /// # Errors
+    /// When a value of the sun or the moon is not allowed or the date does not exist.
+    pub fn moon(&self) -> Result<Option<MoonState>, SceneError> {
+        check_group("moon", &self.moon)?;
+        astronomy::moon_state(&self.moon, &self.sun, self.sun_direction()?.unit())
+    }
+
+    /// Rotation from the axes of the star catalogue (equator of J2000) to those of the scene.
+    ///
+    /// # Errors
+    /// When a value of the sun is not allowed or the date does not exist.
+    pub fn world_from_stars(&self) -> Result<glam::DMat3, SceneError> {
+        check_group("sun", &self.sun)?;
+        astronomy::world_from_stars(&self.stars, &self.sun)
     }
 
     /// The air that lifts and flattens the discs of sun and moon; `None` when refraction is off.

@@ -43,18 +43,23 @@ pub(crate) fn direction(sun: &SunParams) -> Result<SunDirection, SceneError> {
 }
 
 fn direction_by_date(sun: &SunParams) -> Result<SunDirection, SceneError> {
-    let days = days_in_month(sun.year, sun.month);
-    if sun.day > days {
-        return Err(SceneError::Day { year: sun.year, month: sun.month, day: sun.day, days });
-    }
+    let time = instant(sun)?;
     let refused = |error: solar_positioning::Error| SceneError::SunPosition { reason: error.to_string() };
-    let time = julian_date(sun).map_err(refused)?;
     let place = Location { latitude: sun.latitude_deg, longitude: sun.longitude_deg };
     let position = SolarPositions::new().at_from_julian(time, place, 0.0, None).map_err(refused)?;
     Ok(SunDirection {
         elevation_rad: position.elevation_angle().to_radians(),
         azimuth_rad: position.azimuth().to_radians(),
     })
+}
+
+/// The instant of a date that exists.
+pub(crate) fn instant(sun: &SunParams) -> Result<JulianDate, SceneError> {
+    let days = days_in_month(sun.year, sun.month);
+    if sun.day > days {
+        return Err(SceneError::Day { year: sun.year, month: sun.month, day: sun.day, days });
+    }
+    julian_date(sun).map_err(|error| SceneError::SunPosition { reason: error.to_string() })
 }
 
 /// The instant in universal time; the clock's offset may move it into the day before or after.

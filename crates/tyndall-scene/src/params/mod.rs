@@ -4,12 +4,16 @@ mod camera;
 mod film;
 mod image;
 mod landscape;
+mod moon;
 mod sky;
+mod stars;
 mod sun;
 
 pub use camera::CameraParams;
 pub use film::{ExposureMode, FilmParams, ToneMap};
 pub use image::ImageParams;
 pub use landscape::{LandscapeKind, LandscapeParams};
+pub use moon::{MoonParams, MoonPhase, MoonPosition};
 pub use sky::{Orders, OrdersDetail, SkyMode, SkyParams};
+pub use stars::StarsParams;
 pub use sun::{SunParams, SunPosition};

@@ -31,7 +31,7 @@ fn both_lists_of_groups_have_the_same_names_in_the_same_order() {
     let names = scene.groups().map(|(name, _)| name);
     assert_eq!(
         names,
-        ["camera", "sun", "atmosphere", "haze", "ground", "landscape", "sky", "film", "image"],
+        ["camera", "sun", "moon", "stars", "atmosphere", "haze", "ground", "landscape", "sky", "film", "image"],
         "as in scene files"
     );
     assert_eq!(scene.groups_mut().map(|(name, _)| name), names, "mutable");
