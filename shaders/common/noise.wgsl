@@ -13,3 +13,18 @@ fn noise_triangular(pixel: vec2<u32>, channel: u32) -> f32 {
     let second = noise_pcg(first);
     return (f32(first >> 8u) - f32(second >> 8u)) * (1.0 / 16777216.0);
 }
+
+/// Smooth noise of 0..1 in space, a new value about every unit; for coordinates above -512.
+fn noise_value(at: vec3<f32>) -> f32 {
+    let cell = floor(at);
+    let f = at - cell;
+    let u = f * f * (3.0 - 2.0 * f);
+    var sum = 0.0;
+    for (var i = 0u; i < 8u; i++) { // loops: 8
+        let corner = vec3<f32>(f32(i & 1u), f32((i >> 1u) & 1u), f32(i >> 2u));
+        let c = vec3<u32>(cell + corner + 512.0);
+        let weight = mix(1.0 - u, u, corner);
+        sum += weight.x * weight.y * weight.z * f32(noise_pcg(c.x + noise_pcg(c.y + noise_pcg(c.z))) >> 8u);
+    }
+    return sum / 16777216.0;
+}

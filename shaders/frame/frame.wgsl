@@ -21,7 +21,7 @@ struct Frame {
     contrast: f32,             // 1, exponent on the display value
     saturation: f32,           // 1, factor on the distance from grey
     projection: u32,           // 0 perspective, 1 equirectangular
-    padding: u32,
+    largest: f32,              // frame value that the frame's format holds
 }
 @group(1) @binding(0) var<uniform> frame: Frame;
 

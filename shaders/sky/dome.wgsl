@@ -1,6 +1,7 @@
 // The paper's sky (section 2): a dome of quadrilaterals, the colour of the table at each vertex, linear in between; rings
 // dense at the horizon. The sun's disc is added per pixel. Twin of the mesh: tyndall_scattering::dome.
 // @import frame/frame.wgsl
+// @import sky/night.wgsl
 // @import sky/sky_view_lookup.wgsl
 // @import sky/sun_disc.wgsl
 
@@ -41,6 +42,7 @@ fn dome_vertex(@builtin(vertex_index) index: u32) -> DomeVertex {
 
 @fragment
 fn dome_fragment(vertex: DomeVertex) -> @location(0) vec4<f32> {
-    let sun = sun_disc_radiance(frame_plane(vertex.clip)) * frame.pre_exposure;
-    return vec4<f32>(vertex.radiance + sun, 1.0);
+    let plane = frame_plane(vertex.clip);
+    let discs = sun_disc_radiance(plane) + night_radiance(plane, frame_direction(plane));
+    return vec4<f32>(min(vertex.radiance + discs * frame.pre_exposure, vec3<f32>(frame.largest)), 1.0);
 }

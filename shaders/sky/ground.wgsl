@@ -1,6 +1,7 @@
 // The ground: a Lambertian sphere lit by the sun and the sky, seen through the air in front of it. Writes depth.
 // @import frame/frame.wgsl
 // @import sky/ground_light.wgsl
+// @import sky/ground_night.wgsl
 // @import sky/sky_view_lookup.wgsl
 // @import sky/view.wgsl
 
@@ -52,9 +53,15 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     let nu = sky_sun_cosine(direction);
     let mu_sun = mu_along(radius, h, sky_view.sun_direction.z, nu, t, 0.0);
     let footprint_m = frame_pixel_angle(plane) * t / max(-direction.z, 1e-4);
-    let light = spectrum_add(ground_sun_irradiance(mu_sun), ground_sky_irradiance(mu_sun));
+    var light = spectrum_add(ground_sun_irradiance(mu_sun), ground_sky_irradiance(mu_sun));
+    if (moon.skylight == 1u) {
+        let mu_moon = mu_along(radius, h, moon.direction.z, dot(direction, moon.direction), t, 0.0);
+        light = spectrum_add(light, spectrum_mul(moon.light, spectrum_add(ground_sun_irradiance(mu_moon), ground_sky_irradiance(mu_moon))));
+    }
+    light = spectrum_add(light, ground_airglow_irradiance());
     let reflected = spectrum_scale(spectrum_mul(atmosphere.ground_albedo, light), ground_pattern(frame.position_m.xy + t * direction.xy, footprint_m) / SKY_PI);
-    let seen = spectrum_mul(reflected, atmosphere_transmittance(ground_view_columns(direction.z, t)));
-    let radiance = atmosphere_rec709(seen) + sky_view_radiance(sky_view_angles(direction), nu);
+    let transmittance = atmosphere_transmittance(ground_view_columns(direction.z, t));
+    let veil = sky_view_radiance(sky_view_angles(direction), nu) + ground_night_veil(direction, transmittance);
+    let radiance = atmosphere_rec709(spectrum_mul(reflected, transmittance)) + veil;
     return GroundFragment(vec4<f32>(radiance * frame.pre_exposure, 1.0), frame.near_m / frame_depth_m(direction, t));
 }

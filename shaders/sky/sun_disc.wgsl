@@ -3,26 +3,12 @@
 // Distances on the disc are chords, because acos is off by 3 % of the sun's radius on some adapters.
 // Formulas: tyndall_scattering::sun_disc.
 // @import frame/frame.wgsl
-// @import sky/column_lookup.wgsl
 // @import sky/refraction.wgsl
+// @import sky/sun_columns.wgsl
 // @import sky/view.wgsl
 
 const SUN_SAMPLES_MAX: u32 = 64u;
 const SUN_SAMPLES_ACROSS_DISC: f32 = 136.0;
-
-/// Columns [m] from the observer to the top of the atmosphere at a zenith cosine that misses the ground.
-fn sun_columns(mu_view: f32) -> vec4<f32> {
-    let radius = atmosphere.planet_radius_m;
-    let top = atmosphere.top_altitude_m;
-    let h = sky_view.observer_altitude_m;
-    let entry = sky_entry_distance(mu_view);
-    if (entry < 0.0) {
-        return vec4<f32>(0.0);
-    }
-    let inside = min(h, top);
-    let mu = select(mu_along(radius, h, mu_view, 1.0, entry, top), mu_view, entry == 0.0);
-    return columns_to_top(inside, max(mu, horizon_mu(radius, inside)));
-}
 
 /// Relative radiance of the disc at a squared chord over the squared radius, 0 outside.
 fn sun_limb(share_squared: f32) -> Spectrum {

@@ -3,7 +3,9 @@
 //! Exposure is manual, because the automatic one evens out what brightness does. Light counts that was scattered once,
 //! except where all orders matter: the tables of the others take seconds on a software adapter.
 
-use tyndall_scene::{ExposureMode, LandscapeKind, Orders, OrdersDetail, Scene, SkyMode, SunPosition};
+use tyndall_scene::{
+    ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, OrdersDetail, Scene, SkyMode, SunPosition,
+};
 
 /// A scene and the parameters that are tried in it.
 pub(crate) struct Precondition {
@@ -138,6 +140,54 @@ pub(crate) const ALL: &[Precondition] = &[
         ],
     },
     Precondition {
+        name: "a moonlit night",
+        prepare: |scene| {
+            night(scene);
+            scene.moon.position = MoonPosition::Angles;
+            scene.moon.azimuth_deg = 15.0;
+        },
+        parameters: &[
+            ("moon.position", None),
+            ("moon.elevation_deg", None),
+            ("moon.azimuth_deg", None),
+            ("moon.phase", None),
+            ("moon.brightness", None),
+        ],
+    },
+    Precondition {
+        name: "the moon's disc, large and dark enough not to be clipped",
+        prepare: |scene| {
+            night(scene);
+            scene.film.ev100 = 8.0;
+            scene.moon.position = MoonPosition::Angles;
+            scene.moon.phase = MoonPhase::Angle;
+            scene.moon.azimuth_deg = 0.0;
+            scene.moon.elevation_deg = 12.0;
+            scene.moon.angular_radius_deg = 4.0;
+        },
+        parameters: &[
+            ("moon.phase_deg", Some(60.0)),
+            ("moon.angular_radius_deg", None),
+            ("moon.disc", None),
+            ("moon.maria", None),
+        ],
+    },
+    Precondition {
+        name: "a night of stars",
+        prepare: |scene| {
+            night(scene);
+            scene.stars.milky_way_cd_m2 = 0.001;
+        },
+        parameters: &[
+            ("stars.visible", None),
+            ("stars.brightness", None),
+            ("stars.sidereal_h", None),
+            ("stars.latitude_deg", None),
+            ("stars.milky_way_cd_m2", None),
+            ("stars.airglow_cd_m2", None),
+        ],
+    },
+    Precondition {
         name: "the paper's dome",
         prepare: |scene| {
             manual(scene);
@@ -207,6 +257,13 @@ fn valley(scene: &mut Scene) {
     scene.camera.altitude_m = 300.0;
     scene.camera.pitch_deg = 0.0;
     scene.camera.x_m = 2000.0;
+}
+
+/// The sun far below the horizon, and a film for starlight.
+fn night(scene: &mut Scene) {
+    manual(scene);
+    scene.sun.elevation_deg = -30.0;
+    scene.film.ev100 = -8.0;
 }
 
 /// High up and looking down a little, so that the squares are larger than pixels.

@@ -8,7 +8,7 @@ use tyndall_gpu::rust_layout;
 use tyndall_render::frame::gpu_data::Frame;
 use tyndall_render::landscape::gpu_data::Landscape;
 use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyLight, SkyView};
-use tyndall_render::sky::night::gpu_data::Refraction;
+use tyndall_render::sky::night::gpu_data::{Airglow, Moon, Refraction, Stars};
 
 use crate::modules::{Module, assert_no_faults, faults_in, valid};
 
@@ -68,12 +68,15 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
                 contrast,
                 saturation,
                 projection,
-                padding,
+                largest,
             }),
         ),
         landscape(),
         orders(),
         ("SkyLight", rust_layout!(SkyLight { lowest_mu_sun, highest_mu_sun, top_altitude_m, lux })),
+        ("Airglow", rust_layout!(Airglow { zenith, bottom_m, top_m, padding0, padding1 })),
+        moon(),
+        stars(),
         ("Refraction", rust_layout!(Refraction { lift, horizon_elevation, padding0, padding1, padding2 })),
         (
             "SkyView",
@@ -129,6 +132,34 @@ fn landscape() -> (&'static str, StructLayout) {
             sun_heading,
             padding,
         }),
+    )
+}
+
+/// Twin of `Moon`.
+fn moon() -> (&'static str, StructLayout) {
+    (
+        "Moon",
+        rust_layout!(Moon {
+            direction,
+            angular_radius,
+            sunlight,
+            disc_per_sr,
+            north,
+            earthshine_per_sr,
+            light,
+            disc,
+            maria,
+            skylight,
+            padding,
+        }),
+    )
+}
+
+/// Twin of `Stars`.
+fn stars() -> (&'static str, StructLayout) {
+    (
+        "Stars",
+        rust_layout!(Stars { from_world_x, from_world_y, from_world_z, white, grid, factor, milky_way_cd_m2, padding }),
     )
 }
 

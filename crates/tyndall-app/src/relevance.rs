@@ -1,11 +1,13 @@
 //! Which parameters have no effect at present, and why: the app shows those disabled.
 
-use tyndall_scene::{ExposureMode, LandscapeKind, Orders, Scene, SkyMode, SunPosition};
+use tyndall_scene::{ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, Scene, SkyMode, SunPosition};
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
 pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
     match (group, name) {
         ("sun", name) => sun(scene, name),
+        ("moon", name) => moon(scene, name),
+        ("stars", name) => stars(scene, name),
         ("atmosphere", name) => atmosphere(scene, name),
         ("haze", name) if name != "enabled" && !scene.haze.enabled => Some("There is no haze; switch Enabled on."),
         ("film", "ev100") if scene.film.exposure == ExposureMode::Auto => {
@@ -41,15 +43,44 @@ fn landscape(kind: LandscapeKind, name: &str) -> Option<&'static str> {
 
 fn sun(scene: &Scene, name: &str) -> Option<&'static str> {
     let by_date = scene.sun.position == SunPosition::Date;
+    let date_counts = by_date || scene.moon.position == MoonPosition::Date;
     match name {
         "elevation_deg" | "azimuth_deg" if by_date => {
             Some("Date, time and place say where the sun stands; set Position to angles.")
         }
-        "year" | "month" | "day" | "time_h" | "utc_offset_h" | "latitude_deg" | "longitude_deg" if !by_date => {
+        "year" | "month" | "day" | "time_h" | "utc_offset_h" | "latitude_deg" | "longitude_deg" if !date_counts => {
             Some("The angles say where the sun stands; set Position to date.")
         }
         "pressure_hpa" | "temperature_c" if !scene.sun.refraction => Some("Light goes straight; switch Refraction on."),
         "limb_darkening" if !scene.sun.disc => Some("The disc is not drawn; switch Disc on."),
+        _ => None,
+    }
+}
+
+fn moon(scene: &Scene, name: &str) -> Option<&'static str> {
+    let moon = &scene.moon;
+    match name {
+        "position" => None,
+        _ if moon.position == MoonPosition::None => Some("There is no moon; set Position to angles or date."),
+        "elevation_deg" | "azimuth_deg" if moon.position == MoonPosition::Date => {
+            Some("Date, time and place say where the moon stands; set Position to angles.")
+        }
+        "phase_deg" if moon.phase == MoonPhase::Sun => {
+            Some("Where sun and moon stand says what is lit; set Phase to angle.")
+        }
+        "angular_radius_deg" | "maria" if !moon.disc => Some("The disc is not drawn; switch Disc on."),
+        _ => None,
+    }
+}
+
+fn stars(scene: &Scene, name: &str) -> Option<&'static str> {
+    match name {
+        "sidereal_h" | "latitude_deg" if scene.sun.position == SunPosition::Date => {
+            Some("Date, time and place of the sun turn the sky; set its Position to angles.")
+        }
+        "brightness" | "sidereal_h" | "latitude_deg" | "milky_way_cd_m2" if !scene.stars.visible => {
+            Some("There are no stars; switch Visible on.")
+        }
         _ => None,
     }
 }
@@ -93,6 +124,9 @@ mod tests {
         for (group, name) in [
             ("sun", "position"),
             ("sun", "disc"),
+            ("sun", "refraction"),
+            ("moon", "position"),
+            ("stars", "visible"),
             ("atmosphere", "air_density"),
             ("atmosphere", "aerosol_optical_depth"),
             ("atmosphere", "ozone_du"),
@@ -115,6 +149,9 @@ mod tests {
             "ground.tile_m",
             "landscape.size_km",
             "landscape.building_m",
+            "moon.elevation_deg",
+            "moon.phase_deg",
+            "moon.maria",
             "haze.visibility_km",
             "haze.forward_weight",
             "sky.dome_rings",

@@ -4,7 +4,10 @@ use tyndall_scene::camera::NEAR_M;
 use tyndall_scene::{ExposureMode, Scene, ToneMap};
 
 use crate::exposure::{expected_ev100, gain_from_ev100};
-use crate::{PictureFormat, RenderError, View};
+use crate::{FrameFormat, PictureFormat, RenderError, RendererConfig, View};
+
+/// The largest value of a half float, less a margin for rounding.
+const LARGEST_HALF: f32 = 65_000.0;
 
 /// Uniform structs of this file.
 pub mod gpu_data {
@@ -31,7 +34,7 @@ pub mod gpu_data {
         pub contrast: f32,
         pub saturation: f32,
         pub projection: u32,
-        pub padding: u32,
+        pub largest: f32,
     }
 }
 
@@ -44,11 +47,11 @@ pub fn frame_uniform(
     scene: &Scene,
     view: View,
     size_px: [u32; 2],
-    picture: PictureFormat,
+    config: RendererConfig,
 ) -> Result<gpu_data::Frame, RenderError> {
     let camera = view.frame(&scene.camera);
     let film = &scene.film;
-    let expected_ev100 = expected_ev100(film, scene.sun_direction()?.elevation_rad);
+    let expected_gain = gain_from_ev100(expected_ev100(scene.sun_direction()?.elevation_rad));
     let compensation = film.compensation_ev.exp2();
     let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
     Ok(gpu_data::Frame {
@@ -59,7 +62,7 @@ pub fn frame_uniform(
         forward: camera.forward.as_vec3().to_array(),
         near_m: NEAR_M as f32,
         position_m: camera.position.as_vec3().to_array(),
-        pre_exposure: gain_from_ev100(expected_ev100) as f32,
+        pre_exposure: expected_gain as f32,
         size_px,
         tone_map: match film.tone_map {
             ToneMap::AgX => 0,
@@ -68,15 +71,18 @@ pub fn frame_uniform(
         },
         dither: u32::from(film.dither),
         auto_exposure: u32::from(film.exposure == ExposureMode::Auto),
-        manual_gain: compensation as f32,
+        manual_gain: (compensation * gain_from_ev100(film.ev100) / expected_gain) as f32,
         compensation: compensation as f32,
-        levels: match picture {
+        levels: match config.picture {
             PictureFormat::Eight => 255.0,
             PictureFormat::Sixteen => 65_535.0,
         },
         contrast: film.contrast as f32,
         saturation: film.saturation as f32,
         projection: u32::from(view == View::Panorama),
-        padding: 0,
+        largest: match config.frame {
+            FrameFormat::Half => LARGEST_HALF,
+            FrameFormat::Float => f32::MAX,
+        },
     })
 }

@@ -85,7 +85,7 @@ impl Renderer {
         }
         scene.check()?;
         let scene = &scene.grounded();
-        let frame = frame_uniform(scene, view, target.size_px(), self.config.picture)?;
+        let frame = frame_uniform(scene, view, target.size_px(), self.config)?;
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
         self.pre_exposure = frame.pre_exposure;
         target.pre_exposure = frame.pre_exposure;
@@ -95,7 +95,7 @@ impl Renderer {
         let model = scene.model();
         let uniforms = (AtmosphereUniform::new(&model, scene.sun.brightness)?, SkyView::new(scene, &model)?);
         let orders = OrdersRequest { model: &model, quality: orders_quality(scene), brightness: scene.sun.brightness };
-        self.tables.update_night(gpu, scene, &model);
+        self.tables.update_night(gpu, scene, &model, pixel_angle(&frame))?;
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
         let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), target.size_px())?;
         self.record_scene(gpu, &mut encoder, (scene, landscape), target)?;
@@ -213,6 +213,15 @@ impl Renderer {
     pub fn invalidate_tables(&mut self) {
         self.tables.invalidate();
     }
+}
+
+/// Width (rad) of the largest pixel of a frame.
+fn pixel_angle(frame: &gpu_data::Frame) -> f64 {
+    let [width, height] = frame.size_px.map(f64::from);
+    if frame.projection == 1 {
+        return std::f64::consts::PI * (2.0 / width).max(1.0 / height);
+    }
+    (2.0 * f64::from(frame.tan_half_width) / width).max(2.0 * f64::from(frame.tan_half_height) / height)
 }
 
 /// How finely the orders beyond the first are computed; `None` for the first alone.

@@ -26,4 +26,8 @@ twins! { "common/noise.wgsl";
         "noise_triangular(vec2<u32>(x.xy), u32(x.z))"
             => |x| dither::noise_triangular([whole(x[0]), whole(x[1])], whole(x[2])),
     }
+    // Eight products of weights, with coordinates whose fraction f32 keeps to 4e-6.
+    noise_value in [-60.0..=60.0, -60.0..=60.0, -60.0..=60.0, NONE], within Tolerance::absolute(2e-5), {
+        "noise_value(x.xyz)" => |x| dither::noise_value([x[0], x[1], x[2]]),
+    }
 }

@@ -87,8 +87,8 @@ impl SkyRenderer {
             SkyMode::PerPixel => &self.per_pixel,
             SkyMode::VertexDome => &self.dome,
         };
-        let with_night = [&common[..], &tables.night.bindings()].concat();
-        let mut with_irradiance = common.to_vec();
+        let with_night = [&common[..], &tables.night.sky_bindings()].concat();
+        let mut with_irradiance = [&common[..], &tables.night.ground_bindings()].concat();
         with_irradiance.push(("irradiance_table", tables.irradiance.as_binding()));
         let frame = [("frame", frame.as_entire_binding())];
         Ok(SkyDrawData {

@@ -75,9 +75,12 @@ impl SkyTables {
         })
     }
 
-    /// Uploads what the sky of the night follows from.
-    pub fn update_night(&mut self, gpu: &Gpu, scene: &Scene, model: &Model) {
-        self.night.update(gpu, scene, model);
+    /// Uploads what the sky of the night follows from; `pixel_rad` is the width of a pixel.
+    ///
+    /// # Errors
+    /// When the scene's values do not fit together or memory does not suffice.
+    pub fn update_night(&mut self, gpu: &Gpu, scene: &Scene, model: &Model, pixel_rad: f64) -> Result<(), RenderError> {
+        self.night.update(gpu, scene, model, pixel_rad)
     }
 
     /// Uploads the uniforms and records the filling of the tables whose inputs changed.
@@ -114,6 +117,8 @@ impl SkyTables {
             self.resize(gpu, &view, atmosphere.haze_strongest > 0.0)?;
             self.record_sky_view(gpu, encoder, timer)?;
         }
+        let shared = (&self.columns, &self.orders.uniform, &self.orders.table);
+        self.night.moon.record(gpu, encoder, timer, shared, self.orders.version())?;
         self.filled_for = Some((inputs, key));
         self.filled_from = self.orders.version();
         Ok(())
@@ -137,6 +142,7 @@ impl SkyTables {
     /// Forgets what the tables hold, so that the next frame fills them again.
     pub fn invalidate(&mut self) {
         self.filled_for = None;
+        self.night.moon.invalidate();
         self.orders.invalidate();
     }
 

@@ -42,8 +42,8 @@ impl gpu_data::Refraction {
 
 /// The uniform on the GPU, traced anew for another air or altitude.
 #[derive(Debug)]
-pub struct RefractionUniform {
-    pub(crate) buffer: Buffer,
+pub(super) struct RefractionUniform {
+    pub(super) buffer: Buffer,
     /// Air, radius of the planet (m) and altitude (m).
     holds: Option<(Option<RefractiveAir>, f64, f64)>,
 }
@@ -53,14 +53,14 @@ impl RefractionUniform {
     ///
     /// # Errors
     /// When memory does not suffice.
-    pub fn new(gpu: &Gpu) -> Result<Self, RenderError> {
+    pub(super) fn new(gpu: &Gpu) -> Result<Self, RenderError> {
         let bytes = size_of::<gpu_data::Refraction>() as u64;
         let buffer = gpu.buffer("refraction", bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?;
         Ok(Self { buffer, holds: None })
     }
 
     /// Brings the uniform up to date.
-    pub fn update(&mut self, gpu: &Gpu, scene: &Scene, radius_m: f64) {
+    pub(super) fn update(&mut self, gpu: &Gpu, scene: &Scene, radius_m: f64) {
         let wanted = Some((scene.refractive_air(), radius_m, scene.camera.altitude_m));
         if self.holds == wanted {
             return;
