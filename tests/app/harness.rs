@@ -1,6 +1,6 @@
 //! The program under test: a small window on the software adapter.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, time::Duration};
 
 use egui::{Modifiers, accesskit::Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
@@ -20,6 +20,10 @@ const WINDOW_PT: egui::Vec2 = egui::vec2(640.0, 420.0);
 
 /// Frames that a change may take: the change, the picture, and thumbnails at the start.
 const MAX_STEPS: u64 = 24;
+
+/// How often and how long the program is given time for work beside the frames; a busy computer needs it.
+const WAIT: Duration = Duration::from_millis(20);
+const MAX_WAITS: u32 = 3000;
 
 /// Frames of a quarter of a second until an undo point is set.
 const STEPS_TO_REST: usize = 5;
@@ -67,10 +71,24 @@ pub(crate) fn quick_scene() -> Scene {
     scene
 }
 
+/// Runs until nothing moves any more, tables and plots that are made beside the frames included.
+pub(crate) fn run(program: &mut Program) {
+    program.run();
+    for _try in 0..MAX_WAITS {
+        if !program.state().is_busy() {
+            return;
+        }
+        std::thread::sleep(WAIT);
+        program.run();
+    }
+    panic!("something is still being computed after {:?}", WAIT * MAX_WAITS);
+}
+
 /// Lets a change come to rest, so that it can be undone by itself.
 pub(crate) fn rest(program: &mut Program) {
-    program.run();
+    run(program);
     program.run_steps(STEPS_TO_REST);
+    run(program);
 }
 
 /// The picture in the viewport.
@@ -81,17 +99,17 @@ pub(crate) fn picture(program: &Program) -> Picture {
 /// Presses a key together with Ctrl or Cmd, and what else is held.
 pub(crate) fn press(program: &mut Program, modifiers: Modifiers, key: egui::Key) {
     program.key_press_modifiers(Modifiers::COMMAND | modifiers, key);
-    program.run();
+    run(program);
 }
 
 /// Clicks a button.
 pub(crate) fn click(program: &mut Program, name: &str) {
     program.get_by_role_and_label(Role::Button, name).click_accesskit();
-    program.run();
+    run(program);
 }
 
 /// Moves a slider.
 pub(crate) fn set_slider(program: &mut Program, name: &str, value: f64) {
     program.get_by_role_and_label(Role::Slider, name).set_value_accesskit(value);
-    program.run();
+    run(program);
 }

@@ -6,7 +6,7 @@ use tyndall_app::input_name;
 use tyndall_core::{ParamInfo, ParamKind, Scale};
 use tyndall_scene::Scene;
 
-use crate::harness::{Program, click, picture, press, quick_scene, rest, set_slider, start_with_scene};
+use crate::harness::{Program, click, picture, press, quick_scene, rest, run, set_slider, start_with_scene};
 use crate::preconditions::{self, Precondition};
 
 /// Usual step: a factor on logarithmic scales, a share of the range on linear ones. Odd, so that nothing periodic (tiles
@@ -127,13 +127,13 @@ fn set_by_name(program: &mut Program, name: &str, info: &ParamInfo, value: f64) 
         ParamKind::Real | ParamKind::Integer => set_slider(program, name, value),
         ParamKind::Toggle => {
             program.get_by_role_and_label(Role::CheckBox, name).click_accesskit();
-            program.run();
+            run(program);
         }
         ParamKind::Choice(_) => {
             program.get_by_role_and_label(Role::ComboBox, name).click_accesskit();
-            program.run();
+            run(program);
             program.get_by_label(&format!("{name} = {}", info.format(value))).click_accesskit();
-            program.run();
+            run(program);
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::{
     document::Document,
     layout::{self, Pane},
     logging::LogBuffer,
-    menu,
+    menu::{self, MenuState},
     modal::{self, Question},
     panels::export::ExportOptions,
     recent::Recent,
@@ -81,7 +81,7 @@ impl App {
         theme::install(&context.egui_ctx);
         let stored = context.storage.and_then(|storage| eframe::get_value::<Memory>(storage, STORAGE_KEY));
         let Memory { recent, viewport, export, panels } = stored.unwrap_or_default();
-        let stage = context.wgpu_render_state.clone().map(Stage::new);
+        let stage = context.wgpu_render_state.clone().map(|state| Stage::new(state, &context.egui_ctx));
         let mut app = Self {
             bench: Workbench::new(stage, options.log, viewport, export),
             panels: panels.filter(layout::is_complete).unwrap_or_else(layout::default_tree),
@@ -136,6 +136,12 @@ impl App {
         self.bench.stage.as_ref().map_or(0, Stage::frames)
     }
 
+    /// Whether something is still being computed beside the frames, so that the picture will change by itself.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.bench.is_busy()
+    }
+
     fn start_session(&mut self, data_dir: Option<PathBuf>) {
         let Some(folder) = data_dir else { return };
         match Session::start(&folder) {
@@ -181,8 +187,15 @@ impl App {
             CentralPanel::no_frame().show(ui, |ui| self.bench.show_viewport(ui));
             return;
         }
-        Panel::top("menu").show(ui, |ui| menu::show(ui, self));
-        banner::show(ui, self);
+        let state = MenuState { document: &self.bench.document, recent: &self.recent };
+        if let Some(choice) = Panel::top("menu").show(ui, |ui| menu::show(ui, &state)).inner {
+            self.follow(ui.ctx(), choice);
+        }
+        if let Some(problem) = self.bench.stage.as_ref().and_then(Stage::problem).cloned()
+            && banner::show(ui, &problem)
+        {
+            self.rebuild(&problem);
+        }
         CentralPanel::no_frame().show(ui, |ui| self.panels.ui(&mut self.bench, ui));
         if let Some(preset) = self.bench.chosen.take() {
             self.request(ui.ctx(), modal::Next::Preset(preset));
@@ -239,6 +252,7 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
         self.input(&ctx);
+        self.bench.run_time(&ctx);
         self.show(ui);
         drop_hint(&ctx);
         self.ask(&ctx);

@@ -2,18 +2,14 @@
 
 use egui::{Panel, Ui};
 
-use crate::{app::App, engine::Problem};
+use crate::engine::Problem;
 
 /// Text of the button.
 const REBUILD: &str = "Rebuild";
 
-/// Shows the line when there is a problem.
-pub(crate) fn show(ui: &mut Ui, app: &mut App) {
-    let Some(problem) = app.bench.stage.as_ref().and_then(|stage| stage.problem()).cloned() else { return };
-    let rebuild = Panel::top("banner").show(ui, |ui| contents(ui, &problem)).inner;
-    if rebuild {
-        app.rebuild(&problem);
-    }
+/// Shows the line; whether the renderer is to be made anew.
+pub(crate) fn show(ui: &mut Ui, problem: &Problem) -> bool {
+    Panel::top("banner").show(ui, |ui| contents(ui, problem)).inner
 }
 
 /// Whether the renderer is to be rebuilt.
@@ -30,28 +26,4 @@ fn contents(ui: &mut Ui, problem: &Problem) -> bool {
     });
     ui.add_space(4.0);
     inner.inner
-}
-
-impl App {
-    /// Makes the renderer anew. A lost device takes the window's own graphics along, which only a new start brings back.
-    fn rebuild(&mut self, problem: &Problem) {
-        let Some(stage) = &mut self.bench.stage else { return };
-        if !problem.lost {
-            stage.rebuild();
-            self.bench.gallery.forget(stage);
-            return;
-        }
-        self.keep_for_recovery();
-        let kept = match self.session.as_mut() {
-            Some(session) if session.scene_path().exists() => {
-                session.leave();
-                format!("Unsaved changes are in {} and will be offered.", session.scene_path().display())
-            }
-            _ => "Save the scene first.".to_owned(),
-        };
-        let text = format!("the window's own graphics are lost too. Restart Tyndall. {kept}");
-        if let Some(stage) = &mut self.bench.stage {
-            stage.report(Problem { text, ..problem.clone() });
-        }
-    }
 }

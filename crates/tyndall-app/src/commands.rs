@@ -9,8 +9,10 @@ use crate::{
     action::Action,
     app::App,
     document::Document,
+    engine::Problem,
     file_dialog::Purpose,
     layout::{self, Pane},
+    menu::Choice,
     modal::{Answer, Next, Question},
     panels::export::Exports,
 };
@@ -43,12 +45,34 @@ impl App {
         ctx.request_repaint();
     }
 
-    /// Whether a command would do anything now.
-    pub(crate) fn is_possible(&self, action: Action) -> bool {
-        match action {
-            Action::Undo => self.bench.document.has_undo(),
-            Action::Redo => self.bench.document.has_redo(),
-            _ => true,
+    /// Does what was chosen in the menu.
+    pub(crate) fn follow(&mut self, ctx: &Context, choice: Choice) {
+        match choice {
+            Choice::Act(action) => self.perform(ctx, action),
+            Choice::Request(next) => self.request(ctx, next),
+            Choice::Activate(pane) => layout::activate(&mut self.panels, pane),
+        }
+    }
+
+    /// Makes the renderer anew. A lost device takes the window's own graphics along, which only a new start brings back.
+    pub(crate) fn rebuild(&mut self, problem: &Problem) {
+        let Some(stage) = &mut self.bench.stage else { return };
+        if !problem.lost {
+            stage.rebuild();
+            self.bench.gallery.forget(stage);
+            return;
+        }
+        self.keep_for_recovery();
+        let kept = match self.session.as_mut() {
+            Some(session) if session.scene_path().exists() => {
+                session.leave();
+                format!("Unsaved changes are in {} and will be offered.", session.scene_path().display())
+            }
+            _ => "Save the scene first.".to_owned(),
+        };
+        let text = format!("the window's own graphics are lost too. Restart Tyndall. {kept}");
+        if let Some(stage) = &mut self.bench.stage {
+            stage.report(Problem { text, ..problem.clone() });
         }
     }
 
@@ -66,7 +90,7 @@ impl App {
         match Document::open(path) {
             Ok(document) => {
                 self.recent.add(path);
-                self.bench.document = document;
+                self.bench.replace_document(document);
                 tracing::info!(path = %path.display(), "scene opened");
             }
             Err(error) => {
@@ -118,7 +142,7 @@ impl App {
             Answer::Save(path, next) => self.save_as(ctx, &path, next),
             Answer::Recover(leftover) => match Document::recovered(&leftover.text, leftover.path.clone()) {
                 Ok(document) => {
-                    self.bench.document = document;
+                    self.bench.replace_document(document);
                     // Under this program's name first: a crash in between must not lose it.
                     self.keep_for_recovery();
                     leftover.remove();
@@ -131,10 +155,10 @@ impl App {
 
     fn proceed(&mut self, ctx: &Context, next: Next) {
         match next {
-            Next::New => self.bench.document = Document::new(),
+            Next::New => self.bench.replace_document(Document::new()),
             Next::Open(path) => self.open(&path),
             Next::Preset(preset) => match Document::from_preset(&preset) {
-                Ok(document) => self.bench.document = document,
+                Ok(document) => self.bench.replace_document(document),
                 Err(error) => self.report("The preset cannot be opened", &error),
             },
             Next::Quit => {

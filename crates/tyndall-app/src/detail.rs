@@ -1,6 +1,6 @@
 //! The slow tables of light scattered more than once take seconds on a slow machine. They follow from the medium and the
-//! ground alone: while those change the app asks for the coarse tables, and for the scene's own once it rests. Whatever
-//! does not touch them, as the camera and the sun's place do not, keeps what is there.
+//! ground alone: while those change the app asks for the coarse tables, and for the scene's own once it rests; either are
+//! made beside the frames. Whatever does not touch them, as the camera and the sun's place do not, keeps what is there.
 
 use tyndall_scene::{AtmosphereParams, GroundParams, Orders, OrdersDetail, Scene};
 
@@ -32,11 +32,6 @@ impl Detail {
     /// The scene itself is drawn.
     pub(crate) fn drawn_fine(&mut self, scene: &Scene) {
         self.fine_for = Some(inputs(scene));
-    }
-
-    /// The renderer has drawn something else.
-    pub(crate) fn forget(&mut self) {
-        self.fine_for = None;
     }
 }
 

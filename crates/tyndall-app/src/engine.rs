@@ -1,10 +1,20 @@
 //! Everything of ours on the GPU: renderer, targets, timings. Made from the window's device and rebuilt from it.
 
-use std::{collections::VecDeque, time::Instant};
+use std::{
+    collections::VecDeque,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Instant,
+};
 
 use egui_wgpu::RenderState;
 use tyndall_gpu::{Gpu, GpuError, PassTiming};
-use tyndall_render::{FrameTarget, RenderError, Renderer, RendererConfig};
+use tyndall_render::{
+    FrameTarget, RenderError, Renderer, RendererConfig,
+    sky::{TableBuilding, TableProgress, Wake},
+};
 use tyndall_scene::Scene;
 
 /// Frames whose timings are kept.
@@ -60,8 +70,10 @@ impl FrameTimings {
 /// A renderer on the window's device.
 pub(crate) struct Engine {
     /// The device with its budget and its state.
-    pub(crate) gpu: Gpu,
+    pub(crate) gpu: Arc<Gpu>,
     renderer: Renderer,
+    /// Whether a table has come that no frame has shown yet.
+    news: Arc<AtomicBool>,
     /// Timings of the last frames, the oldest first.
     pub(crate) timings: VecDeque<FrameTimings>,
     /// The frame whose timings are on their way.
@@ -71,14 +83,31 @@ pub(crate) struct Engine {
 }
 
 impl Engine {
-    /// Makes a renderer.
-    pub(crate) fn new(state: &RenderState) -> Result<Self, Problem> {
+    /// Makes a renderer that wakes the window when a table has come.
+    pub(crate) fn new(state: &RenderState, ctx: &egui::Context) -> Result<Self, Problem> {
         let started = Instant::now();
         let gpu = Gpu::from_parts(&state.adapter, state.device.clone(), state.queue.clone(), None);
-        let renderer = Renderer::new(&gpu, RendererConfig::default())?;
+        let mut renderer = Renderer::new(&gpu, RendererConfig::default())?;
         gpu.check()?;
+        let news = Arc::new(AtomicBool::new(false));
+        let (sender, ctx) = (Arc::clone(&news), ctx.clone());
+        renderer.set_table_building(TableBuilding::Background(Wake::new(move || {
+            sender.store(true, Ordering::Release);
+            ctx.request_repaint();
+        })));
         let start_ms = started.elapsed().as_secs_f64() * 1e3;
-        Ok(Self { gpu, renderer, timings: VecDeque::new(), timed: None, start_ms })
+        Ok(Self { gpu: Arc::new(gpu), renderer, news, timings: VecDeque::new(), timed: None, start_ms })
+    }
+
+    /// How the slow table of the sky stands.
+    pub(crate) fn tables(&self) -> TableProgress {
+        self.renderer.table_progress()
+    }
+
+    /// Whether drawing the same scene again would show more.
+    pub(crate) fn has_news(&self) -> bool {
+        let tables = self.tables();
+        tables.building && (tables.needs_frame || self.news.load(Ordering::Acquire))
     }
 
     /// A target for pictures of a size.
@@ -88,6 +117,7 @@ impl Engine {
 
     /// Draws and submits; `divisor` goes into the timings.
     pub(crate) fn draw(&mut self, scene: &Scene, target: &mut FrameTarget, divisor: u32) -> Result<(), Problem> {
+        self.news.store(false, Ordering::Release);
         // Recording is not waited for: the window's own frame follows in the same queue.
         let _submission = self.renderer.render(&self.gpu, scene, target)?;
         // Callbacks run while polling; without it a loss would go unnoticed.
@@ -95,13 +125,6 @@ impl Engine {
         self.gpu.check()?;
         self.timed = self.gpu.has_timestamps().then_some((target.size_px(), divisor));
         Ok(())
-    }
-
-    /// Draws something that is not the view, as thumbnails are.
-    pub(crate) fn draw_aside(&mut self, scene: &Scene, target: &mut FrameTarget) -> Result<(), Problem> {
-        let _submission = self.renderer.render(&self.gpu, scene, target)?;
-        self.timed = None;
-        Ok(self.gpu.check()?)
     }
 
     /// The display picture of a target, waiting for it.

@@ -8,16 +8,27 @@ pub(crate) enum Pane {
     Viewport,
     Parameters,
     Camera,
+    Time,
     Export,
     Gallery,
+    Plots,
     Timings,
     Log,
 }
 
 impl Pane {
     /// All, in the order of the menu.
-    pub(crate) const ALL: [Self; 7] =
-        [Self::Viewport, Self::Parameters, Self::Camera, Self::Export, Self::Gallery, Self::Timings, Self::Log];
+    pub(crate) const ALL: [Self; 9] = [
+        Self::Viewport,
+        Self::Parameters,
+        Self::Camera,
+        Self::Time,
+        Self::Export,
+        Self::Gallery,
+        Self::Plots,
+        Self::Timings,
+        Self::Log,
+    ];
 
     /// Title of the tab.
     pub(crate) fn title(self) -> &'static str {
@@ -25,8 +36,10 @@ impl Pane {
             Self::Viewport => "Viewport",
             Self::Parameters => "Parameters",
             Self::Camera => "Camera",
+            Self::Time => "Date and place",
             Self::Export => "Export",
             Self::Gallery => "Gallery",
+            Self::Plots => "Plots",
             Self::Timings => "Timings",
             Self::Log => "Log",
         }
@@ -47,9 +60,9 @@ pub(crate) fn default_tree() -> Tree<Pane> {
         tiles.insert_tab_tile(panes)
     };
     let view = tabs(&mut tiles, &[Pane::Viewport]);
-    let below = tabs(&mut tiles, &[Pane::Gallery, Pane::Timings, Pane::Log]);
+    let below = tabs(&mut tiles, &[Pane::Gallery, Pane::Plots, Pane::Timings, Pane::Log]);
     let parameters = tabs(&mut tiles, &[Pane::Parameters]);
-    let camera = tabs(&mut tiles, &[Pane::Camera, Pane::Export]);
+    let camera = tabs(&mut tiles, &[Pane::Camera, Pane::Time, Pane::Export]);
     let split = |tiles: &mut Tiles<Pane>, dir, parts, share| {
         let linear = Linear::new_binary(dir, parts, share);
         tiles.insert_new(Tile::Container(Container::Linear(linear)))

@@ -9,6 +9,7 @@
 mod action;
 mod app;
 mod banner;
+mod chapters;
 mod commands;
 mod detail;
 mod document;
@@ -26,8 +27,11 @@ mod preview;
 mod recent;
 mod recovery;
 mod relevance;
+mod sky_probe;
 mod stage;
+mod sun_clock;
 mod theme;
+mod thumbnails;
 mod viewport;
 mod workbench;
 

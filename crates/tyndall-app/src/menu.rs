@@ -3,82 +3,115 @@
 use egui::{Button, MenuBar, RichText, ThemePreference, Ui};
 use tyndall_scene::presets;
 
-use crate::{
-    action::Action,
-    app::App,
-    layout::{self, Pane},
-    modal::Next,
-};
+use crate::{action::Action, document::Document, layout::Pane, modal::Next, recent::Recent};
 
-/// Shows the bar and carries out what is chosen.
-pub(crate) fn show(ui: &mut Ui, app: &mut App) {
-    MenuBar::new().ui(ui, |ui| {
-        ui.menu_button("File", |ui| file(ui, app));
-        ui.menu_button("Edit", |ui| {
-            entries(ui, app, &[Action::Undo, Action::Redo, Action::Reset]);
-            ui.separator();
-            entries(ui, app, &[Action::CopyCommand, Action::CopyScene]);
-        });
-        ui.menu_button("View", |ui| view(ui, app));
-        ui.menu_button("Help", |ui| {
-            entries(ui, app, &[Action::Help]);
-            ui.separator();
-            ui.weak(concat!("Tyndall ", env!("CARGO_PKG_VERSION")));
-        });
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let document = &app.bench.document;
-            let text = RichText::new(document.name());
-            let text = if document.is_dirty() { text.strong() } else { text.weak() };
-            let path =
-                document.path().map_or_else(|| "Not saved as a file yet.".to_owned(), |p| p.display().to_string());
-            let label = ui.add(egui::Label::new(text).truncate()).on_hover_text(path);
-            if document.is_dirty() {
-                let dot = label.rect.left_center() - egui::vec2(9.0, 0.0);
-                ui.painter().circle_filled(dot, 3.5, ui.visuals().warn_fg_color);
-            }
-        });
-    });
+/// What the bar shows.
+pub(crate) struct MenuState<'a> {
+    /// The scene being edited.
+    pub(crate) document: &'a Document,
+    /// Files used lately.
+    pub(crate) recent: &'a Recent,
 }
 
-fn file(ui: &mut Ui, app: &mut App) {
-    entries(ui, app, &[Action::New, Action::Open]);
+/// What was chosen in the bar.
+#[derive(Clone, Debug)]
+pub(crate) enum Choice {
+    /// A command.
+    Act(Action),
+    /// Another document.
+    Request(Next),
+    /// A panel to be shown.
+    Activate(Pane),
+}
+
+impl MenuState<'_> {
+    /// Whether a command would do anything now.
+    fn is_possible(&self, action: Action) -> bool {
+        match action {
+            Action::Undo => self.document.has_undo(),
+            Action::Redo => self.document.has_redo(),
+            _ => true,
+        }
+    }
+}
+
+/// Shows the bar.
+pub(crate) fn show(ui: &mut Ui, state: &MenuState<'_>) -> Option<Choice> {
+    MenuBar::new().ui(ui, |ui| bar(ui, state)).inner
+}
+
+fn bar(ui: &mut Ui, state: &MenuState<'_>) -> Option<Choice> {
+    let mut chosen = ui.menu_button("File", |ui| file(ui, state)).inner.flatten();
+    let edit = |ui: &mut Ui| {
+        let first = entries(ui, state, &[Action::Undo, Action::Redo, Action::Reset]);
+        ui.separator();
+        first.or(entries(ui, state, &[Action::CopyCommand, Action::CopyScene]))
+    };
+    chosen = chosen.or(ui.menu_button("Edit", edit).inner.flatten());
+    chosen = chosen.or(ui.menu_button("View", |ui| view(ui, state)).inner.flatten());
+    let help = |ui: &mut Ui| {
+        let chosen = entries(ui, state, &[Action::Help]);
+        ui.separator();
+        ui.weak(concat!("Tyndall ", env!("CARGO_PKG_VERSION")));
+        chosen
+    };
+    chosen = chosen.or(ui.menu_button("Help", help).inner.flatten());
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| name(ui, state.document));
+    chosen
+}
+
+/// The document's name at the right end, with a dot while it has unsaved changes.
+fn name(ui: &mut Ui, document: &Document) {
+    let text = RichText::new(document.name());
+    let text = if document.is_dirty() { text.strong() } else { text.weak() };
+    let path = document.path().map_or_else(|| "Not saved as a file yet.".to_owned(), |p| p.display().to_string());
+    let label = ui.add(egui::Label::new(text).truncate()).on_hover_text(path);
+    if document.is_dirty() {
+        let dot = label.rect.left_center() - egui::vec2(9.0, 0.0);
+        ui.painter().circle_filled(dot, 3.5, ui.visuals().warn_fg_color);
+    }
+}
+
+fn file(ui: &mut Ui, state: &MenuState<'_>) -> Option<Choice> {
+    let mut chosen = entries(ui, state, &[Action::New, Action::Open]);
     ui.menu_button("Open recent", |ui| {
-        if app.recent.paths().is_empty() {
+        if state.recent.paths().is_empty() {
             ui.weak("None yet");
         }
-        for path in app.recent.paths().to_vec() {
+        for path in state.recent.paths() {
             if ui.button(path.display().to_string()).clicked() {
-                app.request(ui.ctx(), Next::Open(path));
+                chosen = Some(Choice::Request(Next::Open(path.clone())));
             }
         }
     });
     ui.menu_button("Open preset", |ui| {
         for preset in presets() {
             if ui.button(&preset.title).clicked() {
-                app.request(ui.ctx(), Next::Preset(preset));
+                chosen = Some(Choice::Request(Next::Preset(preset)));
             }
         }
     });
-    ui.separator();
-    entries(ui, app, &[Action::Save, Action::SaveAs]);
-    ui.separator();
-    entries(ui, app, &[Action::Render]);
-    ui.separator();
-    entries(ui, app, &[Action::Quit]);
+    for group in [&[Action::Save, Action::SaveAs][..], &[Action::Render], &[Action::Quit]] {
+        ui.separator();
+        chosen = chosen.or(entries(ui, state, group));
+    }
+    chosen
 }
 
-fn view(ui: &mut Ui, app: &mut App) {
+fn view(ui: &mut Ui, state: &MenuState<'_>) -> Option<Choice> {
+    let mut chosen = None;
     for pane in Pane::ALL {
         if ui.button(pane.title()).clicked() {
-            layout::activate(&mut app.panels, pane);
+            chosen = Some(Choice::Activate(pane));
         }
     }
     ui.separator();
-    entries(ui, app, &[Action::FullViewport, Action::ResetLayout]);
+    chosen = chosen.or(entries(ui, state, &[Action::FullViewport, Action::ResetLayout]));
     ui.separator();
     theme(ui);
     ui.separator();
     egui::gui_zoom::zoom_menu_buttons(ui);
+    chosen
 }
 
 fn theme(ui: &mut Ui) {
@@ -93,12 +126,14 @@ fn theme(ui: &mut Ui) {
     ui.ctx().set_theme(chosen);
 }
 
-fn entries(ui: &mut Ui, app: &mut App, actions: &[Action]) {
+fn entries(ui: &mut Ui, state: &MenuState<'_>, actions: &[Action]) -> Option<Choice> {
+    let mut chosen = None;
     for action in actions {
         let keys = action.shortcuts().first().map(|shortcut| ui.ctx().format_shortcut(shortcut));
         let button = Button::new(action.label()).shortcut_text(keys.unwrap_or_default());
-        if ui.add_enabled(app.is_possible(*action), button).clicked() {
-            app.perform(ui.ctx(), *action);
+        if ui.add_enabled(state.is_possible(*action), button).clicked() {
+            chosen = Some(Choice::Act(*action));
         }
     }
+    chosen
 }

@@ -31,12 +31,16 @@ struct Wanted {
 /// Targets, the texture that egui shows, and what was drawn last.
 pub(crate) struct Stage {
     state: RenderState,
+    /// Woken when a table has come.
+    ctx: egui::Context,
     engine: Result<Engine, Problem>,
     /// Target in full resolution, and that of previews.
     targets: [Option<FrameTarget>; 2],
     texture: Option<TextureId>,
     /// What was drawn last, or tried.
     tried: Option<Wanted>,
+    /// The scene as it was drawn last, and the divisor of its resolution.
+    drawn: Option<(Scene, u32)>,
     /// Which of the targets is shown.
     shown: Option<usize>,
     /// Why the picture shown is not that of the scene.
@@ -51,15 +55,17 @@ pub(crate) struct Stage {
 
 impl Stage {
     /// A stage on the window's device.
-    pub(crate) fn new(state: RenderState) -> Self {
-        let engine = Engine::new(&state);
+    pub(crate) fn new(state: RenderState, ctx: &egui::Context) -> Self {
+        let engine = Engine::new(&state, ctx);
         let problem = engine.as_ref().err().cloned();
         Self {
             state,
+            ctx: ctx.clone(),
             engine,
             targets: [None, None],
             texture: None,
             tried: None,
+            drawn: None,
             shown: None,
             problem,
             preview: Preview::default(),
@@ -74,12 +80,6 @@ impl Stage {
     /// The renderer, unless it could not be made.
     pub(crate) fn engine(&self) -> Option<&Engine> {
         self.engine.as_ref().ok()
-    }
-
-    /// The renderer, to draw something else with it.
-    pub(crate) fn engine_mut(&mut self) -> Option<&mut Engine> {
-        self.detail.forget();
-        self.engine.as_mut().ok()
     }
 
     /// The window's graphics.
@@ -108,14 +108,24 @@ impl Stage {
         self.ev100
     }
 
-    /// Whether the picture is complete and measured, so that the renderer may draw something else.
+    /// Whether the picture is complete and measured, so that the graphics may be used for something else.
     pub(crate) fn is_done(&self) -> bool {
-        self.shown.is_some() && self.refine_at_s.is_none() && !self.awaits_timings()
+        self.shown.is_some() && self.refine_at_s.is_none() && !self.awaits_timings() && !self.is_building()
+    }
+
+    /// Whether a table of the sky is being made that the picture will show by and by.
+    pub(crate) fn is_building(&self) -> bool {
+        self.problem.is_none() && self.engine().is_some_and(|engine| engine.tables().building)
     }
 
     /// Whether the window will wake up for the timings of the picture.
     fn awaits_timings(&self) -> bool {
         self.timings_tries > 0 && self.engine().is_some_and(Engine::awaits_timings)
+    }
+
+    /// Whether a picture is shown that a finer one will replace as soon as the user lets go.
+    pub(crate) fn is_moving(&self) -> bool {
+        self.refine_at_s.is_some()
     }
 
     /// Frames drawn so far.
@@ -136,11 +146,11 @@ impl Stage {
     /// Drops everything on the GPU and makes it anew.
     pub(crate) fn rebuild(&mut self) {
         self.targets = [None, None];
-        (self.tried, self.shown, self.refine_at_s) = (None, None, None);
-        self.detail.forget();
+        (self.tried, self.drawn, self.shown, self.refine_at_s) = (None, None, None, None);
+        self.detail = Detail::default();
         // The old one gives its memory back first.
         self.engine = Err(Problem { text: String::new(), rebuild: true, lost: false });
-        self.engine = Engine::new(&self.state);
+        self.engine = Engine::new(&self.state, &self.ctx);
         self.problem = self.engine.as_ref().err().cloned();
     }
 
@@ -162,6 +172,13 @@ impl Stage {
             self.refine_at_s = None;
             self.detail.drawn_fine(scene);
             self.draw(scene, view_px, 1);
+        } else if self.engine().is_some_and(Engine::has_news)
+            && let Some((drawn, divisor)) = self.drawn.clone()
+        {
+            self.draw(&drawn, view_px, divisor);
+        }
+        if self.engine().is_some_and(Engine::has_news) {
+            ctx.request_repaint();
         }
         if let Some(at_s) = self.refine_at_s {
             ctx.request_repaint_after(Duration::from_secs_f64((at_s - now_s).max(0.0)));
@@ -181,6 +198,7 @@ impl Stage {
 
     fn draw(&mut self, scene: &Scene, view_px: [u32; 2], divisor: u32) {
         self.frames += 1;
+        self.drawn = Some((scene.clone(), divisor));
         self.problem = self.try_draw(scene, view_px, divisor).err();
         if let Some(problem) = &self.problem {
             tracing::error!("{}", problem.text);

@@ -6,6 +6,7 @@ use tyndall_scene::{Scene, camera::CameraFrame};
 
 use crate::{
     navigation::{DragTool, navigate},
+    sky_probe::Sight,
     stage::Stage,
 };
 
@@ -14,6 +15,9 @@ pub(crate) const NAME: &str = "Viewport";
 
 /// Largest side of the picture; more than any screen has.
 const MAX_SIDE_PX: f32 = 8192.0;
+
+/// Pixels a point where directions are computed: sizes in points are no whole numbers.
+const SIGHT_SCALE: f32 = 64.0;
 
 /// Shade below text and marks, so that they are readable on sky and ground.
 const SHADE: Color32 = Color32::from_black_alpha(140);
@@ -38,8 +42,14 @@ impl Default for ViewportOptions {
     }
 }
 
-/// Shows the picture and moves the camera.
-pub(crate) fn show(ui: &mut Ui, stage: &mut Stage, scene: &mut Scene, options: &ViewportOptions) {
+/// Shows the picture and moves the camera; where the pointer points. `is_playing` is whether something else moves.
+pub(crate) fn show(
+    ui: &mut Ui,
+    stage: &mut Stage,
+    scene: &mut Scene,
+    options: &ViewportOptions,
+    is_playing: bool,
+) -> Option<Sight> {
     let size_pt = ui.available_size().max(Vec2::splat(1.0));
     let (rect, response) = ui.allocate_exact_size(size_pt, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, ui.is_enabled(), NAME));
@@ -53,7 +63,8 @@ pub(crate) fn show(ui: &mut Ui, stage: &mut Stage, scene: &mut Scene, options: &
     if flying {
         ui.ctx().request_repaint();
     }
-    let moving = flying || ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != Vec2::ZERO);
+    let moving =
+        flying || is_playing || ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != Vec2::ZERO);
     stage.present(ui.ctx(), scene, size_px(ui, size_pt), moving);
 
     match stage.picture() {
@@ -64,6 +75,18 @@ pub(crate) fn show(ui: &mut Ui, stage: &mut Stage, scene: &mut Scene, options: &
     if response.has_focus() {
         ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, ui.visuals().selection.bg_fill), egui::StrokeKind::Inside);
     }
+    response.hover_pos().map(|pointer| sight(scene, pointer - rect.min, size_pt))
+}
+
+/// The direction that is seen at a point of the view.
+fn sight(scene: &Scene, point_pt: Vec2, size_pt: Vec2) -> Sight {
+    // Finer than points: the frame takes whole pixels.
+    let scaled = size_pt * SIGHT_SCALE;
+    #[expect(clippy::cast_possible_truncation, reason = "points on a screen")]
+    let size = UVec2::new(scaled.x.round() as u32, scaled.y.round() as u32).max(UVec2::ONE);
+    let point = glam::dvec2(f64::from(point_pt.x), f64::from(point_pt.y)) * f64::from(SIGHT_SCALE);
+    let direction = CameraFrame::new(&scene.camera).ray(point, size);
+    Sight { elevation_rad: direction.z.clamp(-1.0, 1.0).asin(), azimuth_rad: direction.x.atan2(direction.y) }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "clamped to a few thousand")]

@@ -14,8 +14,11 @@ use crate::{
         camera,
         export::{self, ExportOptions, Exports},
         gallery::Gallery,
-        log, parameters, timings,
+        log, parameters, plots,
+        time::TimePanel,
+        timings,
     },
+    sky_probe::{Sight, SkyProbe},
     stage::Stage,
     viewport::{self, ViewportOptions},
 };
@@ -38,6 +41,11 @@ pub(crate) struct Workbench {
     pub(crate) export: ExportOptions,
     /// The preset that was clicked in this frame.
     pub(crate) chosen: Option<Preset>,
+    /// Date, time and place, and whether time runs.
+    pub(crate) time: TimePanel,
+    probe: SkyProbe,
+    /// Where the pointer was in the view last.
+    cursor: Option<Sight>,
     filter: String,
     level: Level,
 }
@@ -55,17 +63,42 @@ impl Workbench {
             viewport,
             export,
             chosen: None,
+            time: TimePanel::default(),
+            probe: SkyProbe::default(),
+            cursor: None,
             filter: String::new(),
             level: Level::INFO,
         }
     }
 
+    /// Whether something is being computed beside the frames that a panel or the picture will show.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.stage.as_ref().is_some_and(Stage::is_building) || self.probe.is_busy()
+    }
+
+    /// Another document: what moves on its own stops.
+    pub(crate) fn replace_document(&mut self, document: Document) {
+        self.document = document;
+        self.time.playback.is_playing = false;
+    }
+
+    /// Lets the time of the scene run while it plays.
+    pub(crate) fn run_time(&mut self, ctx: &egui::Context) {
+        let passed_s = f64::from(ctx.input(|input| input.unstable_dt));
+        if self.time.playback.run(&mut self.document.scene_mut().sun, passed_s) {
+            ctx.request_repaint();
+        }
+    }
+
     /// The viewport alone.
     pub(crate) fn show_viewport(&mut self, ui: &mut Ui) {
-        match &mut self.stage {
-            Some(stage) => viewport::show(ui, stage, self.document.scene_mut(), &self.viewport),
-            None => drop(ui.label("This window has no graphics device.")),
-        }
+        let Some(stage) = &mut self.stage else {
+            ui.label("This window has no graphics device.");
+            return;
+        };
+        let is_playing = self.time.playback.is_playing;
+        let pointed = viewport::show(ui, stage, self.document.scene_mut(), &self.viewport, is_playing);
+        self.cursor = pointed.or(self.cursor);
     }
 
     fn show_pane(&mut self, ui: &mut Ui, pane: Pane) {
@@ -74,8 +107,13 @@ impl Workbench {
             Pane::Viewport => self.show_viewport(ui),
             Pane::Parameters => parameters::show(ui, document.scene_mut(), &mut self.filter),
             Pane::Camera => camera::show(ui, document.scene_mut(), &mut self.viewport),
+            Pane::Time => self.time.show(ui, document.scene_mut()),
             Pane::Export => export::show(ui, document, &mut self.export, exports, dialogs),
-            Pane::Gallery => self.chosen = stage.as_mut().and_then(|stage| self.gallery.show(ui, stage)),
+            Pane::Gallery => self.chosen = stage.as_ref().and_then(|stage| self.gallery.show(ui, stage)),
+            Pane::Plots => {
+                let at_rest = stage.as_ref().is_none_or(|stage| !stage.is_moving());
+                plots::show(ui, &mut self.probe, document.scene(), self.cursor, at_rest);
+            }
             Pane::Timings => {
                 let frames = stage.as_ref().map_or(0, Stage::frames);
                 timings::show(ui, stage.as_ref().and_then(Stage::engine), frames);

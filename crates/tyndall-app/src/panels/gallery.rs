@@ -1,24 +1,29 @@
-//! The gallery: the scenes that come with Tyndall, each with a small picture of itself.
+//! The gallery: the scenes that come with Tyndall in chapters, each with a small picture of itself.
 
 use egui::{Image, Label, RichText, Role, ScrollArea, Sense, TextureId, Ui, UiBuilder, WidgetInfo, vec2};
 use egui_wgpu::wgpu;
 use tyndall_render::FrameTarget;
 use tyndall_scene::{Preset, Scene, presets};
 
-use crate::{detail::coarse, stage::Stage};
+use crate::{
+    chapters::Chapter,
+    stage::Stage,
+    thumbnails::{SIZE_PX, Thumbnails},
+};
 
-/// Size of the pictures.
-const SIZE_PX: [u32; 2] = [192, 108];
-const SIZE_PT: egui::Vec2 = vec2(192.0, 108.0);
+/// Size of the pictures on the screen.
+const SIZE_PT: egui::Vec2 = vec2(SIZE_PX[0] as f32, SIZE_PX[1] as f32);
 
 /// Presets and the pictures drawn so far.
 pub(crate) struct Gallery {
     entries: Vec<Entry>,
+    thumbnails: Option<Thumbnails>,
 }
 
 struct Entry {
     preset: Preset,
     scene: Option<Scene>,
+    chapter: Chapter,
     picture: Picture,
 }
 
@@ -35,15 +40,17 @@ impl Default for Gallery {
     fn default() -> Self {
         let entry = |preset: Preset| {
             let scene = preset.load().ok().map(|file| file.scene);
-            Entry { preset, scene, picture: Picture::Due }
+            let chapter = scene.as_ref().map_or(Chapter::Day, Chapter::of);
+            Entry { preset, scene, chapter, picture: Picture::Due }
         };
-        Self { entries: presets().into_iter().map(entry).collect() }
+        Self { entries: presets().into_iter().map(entry).collect(), thumbnails: None }
     }
 }
 
 impl Gallery {
     /// Forgets the pictures, as their device is gone.
     pub(crate) fn forget(&mut self, stage: &Stage) {
+        self.thumbnails = None;
         for entry in &mut self.entries {
             if let Picture::Drawn(texture, _) = entry.picture {
                 stage.state().renderer.write().free_texture(&texture);
@@ -53,51 +60,62 @@ impl Gallery {
     }
 
     /// Shows the gallery; the preset that was clicked.
-    pub(crate) fn show(&mut self, ui: &mut Ui, stage: &mut Stage) -> Option<Preset> {
-        self.draw_next(ui, stage);
-        let cards = |ui: &mut Ui| {
-            ui.spacing_mut().item_spacing = vec2(12.0, 12.0);
-            let clicked = self.entries.iter().filter(|entry| card(ui, entry)).last();
-            clicked.map(|entry| entry.preset.clone())
+    pub(crate) fn show(&mut self, ui: &mut Ui, stage: &Stage) -> Option<Preset> {
+        self.take_drawn(stage);
+        self.order_next(ui.ctx(), stage);
+        let list = |ui: &mut Ui| {
+            let chapters = Chapter::ALL.into_iter().map(|chapter| self.chapter(ui, chapter));
+            chapters.flatten().last()
         };
-        let list = |ui: &mut Ui| ui.horizontal_wrapped(cards).inner;
         ScrollArea::vertical().auto_shrink(false).show(ui, list).inner
     }
 
-    /// Draws one picture a frame, so that the window stays awake.
-    fn draw_next(&mut self, ui: &Ui, stage: &mut Stage) {
-        // The view comes first, and its timings must not be mixed up with those of thumbnails.
-        if !stage.is_done() {
+    fn chapter(&self, ui: &mut Ui, chapter: Chapter) -> Option<Preset> {
+        let mut entries = self.entries.iter().filter(|entry| entry.chapter == chapter).peekable();
+        entries.peek()?;
+        ui.label(RichText::new(chapter.title()).weak());
+        let cards = |ui: &mut Ui| {
+            ui.spacing_mut().item_spacing = vec2(12.0, 12.0);
+            entries.filter(|entry| card(ui, entry)).last().map(|entry| entry.preset.clone())
+        };
+        let clicked = ui.horizontal_wrapped(cards).inner;
+        ui.add_space(6.0);
+        clicked
+    }
+
+    /// Gives egui the texture of the picture that has come.
+    fn take_drawn(&mut self, stage: &Stage) {
+        let Some((index, target)) = self.thumbnails.as_mut().and_then(Thumbnails::take) else { return };
+        self.entries[index].picture = target.map_or(Picture::Failed, |target| {
+            let (state, view, filter) = (stage.state(), target.picture().view(), wgpu::FilterMode::Linear);
+            let texture = state.renderer.write().register_native_texture(&state.device, view, filter);
+            Picture::Drawn(texture, Box::new(target))
+        });
+    }
+
+    /// Asks for one picture at a time, and only while the view is at rest: it comes first.
+    fn order_next(&mut self, ctx: &egui::Context, stage: &Stage) {
+        if !stage.is_done() || stage.problem().is_some_and(|problem| problem.rebuild) {
             return;
         }
-        let Some(entry) = self.entries.iter_mut().find(|entry| matches!(entry.picture, Picture::Due)) else { return };
-        entry.picture = match entry.scene.as_ref().and_then(|scene| draw(stage, scene)) {
-            Some((texture, target)) => Picture::Drawn(texture, Box::new(target)),
-            None => Picture::Failed,
+        let Some(engine) = stage.engine() else { return };
+        let due = self.entries.iter_mut().enumerate().find(|(_, entry)| matches!(entry.picture, Picture::Due));
+        let Some((index, entry)) = due else {
+            // Nothing more to draw: the renderer's memory is free again.
+            self.thumbnails = None;
+            return;
         };
-        ui.ctx().request_repaint();
-    }
-}
-
-fn draw(stage: &mut Stage, scene: &Scene) -> Option<(TextureId, FrameTarget)> {
-    if stage.problem().is_some_and(|problem| problem.rebuild) {
-        return None;
-    }
-    let engine = stage.engine_mut()?;
-    let drawn = engine.target(SIZE_PX).and_then(|mut target| {
-        engine.draw_aside(&coarse(scene), &mut target)?;
-        Ok(target)
-    });
-    match drawn {
-        Ok(target) => {
-            let state = stage.state();
-            let (view, filter) = (target.picture().view(), wgpu::FilterMode::Linear);
-            let texture = state.renderer.write().register_native_texture(&state.device, view, filter);
-            Some((texture, target))
+        let Some(scene) = &entry.scene else {
+            entry.picture = Picture::Failed;
+            return;
+        };
+        if self.thumbnails.is_none() {
+            let ctx = ctx.clone();
+            self.thumbnails = Thumbnails::start(engine.gpu.clone(), move || ctx.request_repaint()).ok();
         }
-        Err(problem) => {
-            stage.report(problem);
-            None
+        match &mut self.thumbnails {
+            Some(thumbnails) => thumbnails.order(index, scene),
+            None => entry.picture = Picture::Failed,
         }
     }
 }

@@ -1,12 +1,15 @@
 //! The panels around the viewport.
 
 pub(crate) mod camera;
+pub(crate) mod dial;
 pub(crate) mod export;
 pub(crate) mod gallery;
 pub(crate) mod group;
 pub(crate) mod log;
 pub(crate) mod parameters;
+pub(crate) mod plots;
 pub(crate) mod row;
+pub(crate) mod time;
 pub(crate) mod timings;
 
 /// Room beside the contents of a list for its scroll bar.

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use egui::{Color32, Grid, ScrollArea, Sense, Ui, Visuals, ecolor::Hsva, vec2};
 use egui_plot::{Line, Plot, PlotPoints};
+use tyndall_render::sky::TableProgress;
 
 use crate::engine::{Engine, FrameTimings};
 
@@ -51,7 +52,19 @@ fn facts(ui: &mut Ui, engine: &Engine, frames: u64) {
         fact("Memory", format!("{:.1} of {:.0} MiB", mib(used), mib(most)));
         fact("Start", format!("{:.0} ms for all pipelines", engine.start_ms));
         fact("Frames drawn", frames.to_string());
+        fact("Sky table", table_state(&engine.tables()));
+        let last = engine.tables().last_ms.map_or_else(|| "none yet".to_owned(), |ms| format!("{ms:.0} ms"));
+        fact("Table rebuild", last);
     });
+}
+
+/// How the table of all orders of scattering stands.
+fn table_state(tables: &TableProgress) -> String {
+    match (tables.building, tables.done) {
+        (false, _) => "up to date".to_owned(),
+        (true, Some(done)) => format!("building, {:.0} %", 100.0 * done),
+        (true, None) => "building...".to_owned(),
+    }
 }
 
 fn passes(ui: &mut Ui, newest: &FrameTimings, all: &VecDeque<FrameTimings>) {
