@@ -5,5 +5,7 @@ mod documents;
 mod harness;
 mod navigation;
 mod parameters;
+mod plots;
 mod preconditions;
 mod rest;
+mod time;

@@ -10,11 +10,11 @@ use tyndall_scene::Scene;
 use crate::{
     action, banner,
     document::Document,
+    export_options::ExportOptions,
     layout::{self, Pane},
     logging::LogBuffer,
     menu::{self, MenuState},
     modal::{self, Question},
-    panels::export::ExportOptions,
     recent::Recent,
     recovery::Session,
     stage::Stage,

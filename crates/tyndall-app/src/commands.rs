@@ -126,7 +126,10 @@ impl App {
                 self.request(ctx, Next::Open(file));
             }
             (Purpose::SaveScene, Some(Question::SaveAs { path, .. })) => *path = file.display().to_string(),
-            (Purpose::ExportPicture, _) => self.bench.export.path = file.display().to_string(),
+            (Purpose::Export(kind), _) => {
+                self.bench.export.kind = kind;
+                *self.bench.export.path_mut() = file.display().to_string();
+            }
             // The question was closed while the dialog was open.
             _ => {}
         }

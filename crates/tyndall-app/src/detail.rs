@@ -2,27 +2,21 @@
 //! ground alone: while those change the app asks for the coarse tables, and for the scene's own once it rests; either are
 //! made beside the frames. Whatever does not touch them, as the camera and the sun's place do not, keeps what is there.
 
-use tyndall_scene::{AtmosphereParams, GroundParams, Orders, OrdersDetail, Scene};
-
-/// What the slow tables follow from.
-#[derive(Clone, Debug, PartialEq)]
-struct Inputs {
-    atmosphere: AtmosphereParams,
-    ground: GroundParams,
-    brightness: f64,
-}
+use tyndall_scattering::Atmosphere;
+use tyndall_scene::{Orders, OrdersDetail, Scene};
 
 /// Remembers which tables the renderer holds.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Detail {
-    fine_for: Option<Inputs>,
+    /// The medium and the ground of the fine ones.
+    fine_for: Option<Atmosphere>,
 }
 
 impl Detail {
     /// The scene as it is to be drawn now: with coarse tables if the fine ones would have to be made first.
     pub(crate) fn quick(&mut self, scene: &Scene) -> Scene {
         let mut quick = scene.clone();
-        if scene.sky.orders == Orders::All && self.fine_for.as_ref() != Some(&inputs(scene)) {
+        if scene.sky.orders == Orders::All && self.fine_for.as_ref() != Some(&scene.model()) {
             quick.sky.orders_detail = OrdersDetail::Preview;
             self.fine_for = None;
         }
@@ -31,7 +25,7 @@ impl Detail {
 
     /// The scene itself is drawn.
     pub(crate) fn drawn_fine(&mut self, scene: &Scene) {
-        self.fine_for = Some(inputs(scene));
+        self.fine_for = Some(scene.model());
     }
 }
 
@@ -40,11 +34,6 @@ pub(crate) fn coarse(scene: &Scene) -> Scene {
     let mut coarse = scene.clone();
     coarse.sky.orders_detail = OrdersDetail::Preview;
     coarse
-}
-
-fn inputs(scene: &Scene) -> Inputs {
-    let Scene { atmosphere, ground, sun, .. } = scene;
-    Inputs { atmosphere: atmosphere.clone(), ground: ground.clone(), brightness: sun.brightness }
 }
 
 #[cfg(test)]

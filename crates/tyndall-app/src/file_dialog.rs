@@ -8,12 +8,14 @@ use std::{
 
 use rfd::AsyncFileDialog;
 
+use crate::export_options::ExportKind;
+
 /// What a file is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     OpenScene,
     SaveScene,
-    ExportPicture,
+    Export(ExportKind),
 }
 
 /// Dialogs under way.
@@ -61,9 +63,13 @@ async fn ask(purpose: Purpose, proposed: &Path) -> Option<PathBuf> {
         Purpose::SaveScene => {
             dialog.set_title("Save scene").add_filter("Scene", &["toml"]).set_file_name(name).save_file().await
         }
-        Purpose::ExportPicture => {
-            let endings = &["png", "exr", "jpg"];
-            dialog.set_title("Picture file").add_filter("Picture", endings).set_file_name(name).save_file().await
+        Purpose::Export(kind) => {
+            let endings: &[&str] = match kind {
+                ExportKind::Hdri => &["exr", "hdr"],
+                ExportKind::Picture | ExportKind::Cubemap => &["png", "exr", "jpg"],
+            };
+            let (title, _) = kind.label();
+            dialog.set_title(title).add_filter(title, endings).set_file_name(name).save_file().await
         }
     };
     file.map(|file| file.path().to_owned())

@@ -24,11 +24,13 @@ const MAX_ERROR_CHARS: usize = 4000;
 /// What is to be rendered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Order {
+    /// Subcommand of the program.
+    pub(crate) verb: &'static str,
     /// The scene as a file's text.
     pub(crate) scene_text: String,
     /// Where the picture goes.
     pub(crate) output: PathBuf,
-    /// Options of `tyndall render` besides these.
+    /// Options of the subcommand besides these.
     pub(crate) options: Vec<String>,
 }
 
@@ -78,7 +80,7 @@ impl Job {
         scene.write_all(order.scene_text.as_bytes())?;
         scene.flush()?;
         let arguments: Vec<OsString> =
-            ["render".into(), scene.path().into(), "-o".into(), order.output.clone().into_os_string()].into();
+            [order.verb.into(), scene.path().into(), "-o".into(), order.output.clone().into_os_string()].into();
         tracing::info!(program = %program.display(), output = %order.output.display(), "render started");
         let mut child = Command::new(program)
             .args(arguments)
@@ -239,7 +241,7 @@ mod tests {
         std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
         let order =
-            Order { scene_text: "format = 1\n".to_owned(), output: folder.path().join("a.png"), options: vec![] };
+            Order { verb: "render", scene_text: "format = 1\n".to_owned(), output: folder.path().join("a.png"), options: vec![] };
         let (woken, wakes) = channel();
         let wake = move || woken.send(()).unwrap_or_default();
         let mut job = Job::start_program(&program, &order, wake).unwrap();
@@ -278,7 +280,7 @@ mod tests {
 
     #[test]
     fn a_missing_program_is_named() {
-        let order = Order { scene_text: String::new(), output: PathBuf::from("a.png"), options: vec![] };
+        let order = Order { verb: "render", scene_text: String::new(), output: PathBuf::from("a.png"), options: vec![] };
         let error = Job::start_program(Path::new("/nowhere/tyndall"), &order, || {}).unwrap_err();
         assert!(error.to_string().contains("/nowhere/tyndall"), "{error}");
     }

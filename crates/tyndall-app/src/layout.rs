@@ -12,13 +12,14 @@ pub(crate) enum Pane {
     Export,
     Gallery,
     Plots,
+    Accuracy,
     Timings,
     Log,
 }
 
 impl Pane {
     /// All, in the order of the menu.
-    pub(crate) const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 10] = [
         Self::Viewport,
         Self::Parameters,
         Self::Camera,
@@ -26,6 +27,7 @@ impl Pane {
         Self::Export,
         Self::Gallery,
         Self::Plots,
+        Self::Accuracy,
         Self::Timings,
         Self::Log,
     ];
@@ -40,6 +42,7 @@ impl Pane {
             Self::Export => "Export",
             Self::Gallery => "Gallery",
             Self::Plots => "Plots",
+            Self::Accuracy => "Accuracy",
             Self::Timings => "Timings",
             Self::Log => "Log",
         }
@@ -60,7 +63,7 @@ pub(crate) fn default_tree() -> Tree<Pane> {
         tiles.insert_tab_tile(panes)
     };
     let view = tabs(&mut tiles, &[Pane::Viewport]);
-    let below = tabs(&mut tiles, &[Pane::Gallery, Pane::Plots, Pane::Timings, Pane::Log]);
+    let below = tabs(&mut tiles, &[Pane::Gallery, Pane::Plots, Pane::Accuracy, Pane::Timings, Pane::Log]);
     let parameters = tabs(&mut tiles, &[Pane::Parameters]);
     let camera = tabs(&mut tiles, &[Pane::Camera, Pane::Time, Pane::Export]);
     let split = |tiles: &mut Tiles<Pane>, dir, parts, share| {

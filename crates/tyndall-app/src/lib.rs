@@ -14,6 +14,8 @@ mod commands;
 mod detail;
 mod document;
 mod engine;
+mod error_meter;
+mod export_options;
 mod file_dialog;
 mod jobs;
 mod launch;

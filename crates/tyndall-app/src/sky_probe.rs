@@ -15,7 +15,7 @@ use tyndall_scattering::{
     orders::{OrdersQuality, SourceTable, diffuse_radiance},
     single_scattering::single_scattering,
 };
-use tyndall_scene::{AtmosphereParams, GroundParams, Orders, Scene, SunDirection};
+use tyndall_scene::{Orders, Scene, SunDirection};
 
 /// Panels of the march: 32 nodes, 0.3 % of the exact integral.
 const PANELS: usize = 8;
@@ -39,8 +39,7 @@ pub(crate) struct Sight {
 /// What is to be computed.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Question {
-    atmosphere: AtmosphereParams,
-    ground: GroundParams,
+    model: Atmosphere,
     orders: Orders,
     brightness: f64,
     sun: SunDirection,
@@ -54,8 +53,7 @@ impl Question {
     pub(crate) fn new(scene: &Scene, cursor: Option<Sight>) -> Option<Self> {
         let is_inside = scene.camera.altitude_m < scene.atmosphere.top_altitude_km * 1e3;
         Some(Self {
-            atmosphere: scene.atmosphere.clone(),
-            ground: scene.ground.clone(),
+            model: scene.model(),
             orders: scene.sky.orders,
             brightness: scene.sun.brightness,
             sun: scene.sun_direction().ok().filter(|_| is_inside)?,
@@ -162,22 +160,20 @@ fn start(wake: impl Fn() + Send + 'static) -> (Sender<Question>, Receiver<Answer
 
 /// An atmosphere, ready to be looked at.
 struct Sky {
-    of: (AtmosphereParams, GroundParams, Orders),
+    orders: Orders,
     marcher: Marcher,
     source: Option<SourceTable>,
 }
 
 impl Sky {
     fn new(question: &Question) -> Option<Self> {
-        let Question { atmosphere, ground, orders, .. } = question;
-        let marcher = Marcher::new(Atmosphere::new(atmosphere, ground), PANELS).ok()?;
-        let source = (*orders == Orders::All).then(|| source(&marcher));
-        Some(Self { of: (atmosphere.clone(), ground.clone(), *orders), marcher, source })
+        let marcher = Marcher::new(question.model.clone(), PANELS).ok()?;
+        let source = (question.orders == Orders::All).then(|| source(&marcher));
+        Some(Self { orders: question.orders, marcher, source })
     }
 
     fn is_of(&self, question: &Question) -> bool {
-        let (atmosphere, ground, orders) = &self.of;
-        *atmosphere == question.atmosphere && *ground == question.ground && *orders == question.orders
+        self.orders == question.orders && self.marcher.atmosphere == question.model
     }
 
     fn answer(&self, question: Question) -> Answer {
@@ -211,9 +207,8 @@ impl Sky {
 
     /// Radiance by light scattered once, by the fast march.
     fn scattered_once(&self, ray: &Ray) -> Spectrum {
-        use tyndall_scattering::atmosphere::{AEROSOL, AIR};
         let parts = self.marcher.scattered_parts(ray);
-        let phases = [AIR, AEROSOL].map(|medium| self.marcher.atmosphere.media[medium].phase.value(ray.nu));
+        let phases = self.marcher.atmosphere.phases(ray.nu);
         std::array::from_fn(|k| parts.iter().zip(phases).map(|(part, phase)| phase * part[k]).sum())
     }
 }

@@ -7,16 +7,18 @@ use tyndall_scene::Preset;
 
 use crate::{
     document::Document,
+    error_meter::{ErrorMeter, Thoroughness},
+    export_options::ExportOptions,
     file_dialog::FileDialogs,
     layout::Pane,
     logging::LogBuffer,
     panels::{
         camera,
-        export::{self, ExportOptions, Exports},
+        export::{self, Exports},
         gallery::Gallery,
         log, parameters, plots,
         time::TimePanel,
-        timings,
+        timings, validate,
     },
     sky_probe::{Sight, SkyProbe},
     stage::Stage,
@@ -44,6 +46,8 @@ pub(crate) struct Workbench {
     /// Date, time and place, and whether time runs.
     pub(crate) time: TimePanel,
     probe: SkyProbe,
+    meter: ErrorMeter,
+    thoroughness: Thoroughness,
     /// Where the pointer was in the view last.
     cursor: Option<Sight>,
     filter: String,
@@ -65,6 +69,8 @@ impl Workbench {
             chosen: None,
             time: TimePanel::default(),
             probe: SkyProbe::default(),
+            meter: ErrorMeter::default(),
+            thoroughness: Thoroughness::default(),
             cursor: None,
             filter: String::new(),
             level: Level::INFO,
@@ -114,6 +120,7 @@ impl Workbench {
                 let at_rest = stage.as_ref().is_none_or(|stage| !stage.is_moving());
                 plots::show(ui, &mut self.probe, document.scene(), self.cursor, at_rest);
             }
+            Pane::Accuracy => validate::show(ui, &mut self.meter, &mut self.thoroughness, document.scene()),
             Pane::Timings => {
                 let frames = stage.as_ref().map_or(0, Stage::frames);
                 timings::show(ui, stage.as_ref().and_then(Stage::engine), frames);

@@ -1,46 +1,21 @@
-//! The export panel: size, file and format of the picture, and the renders under way.
+//! The export panel: what is made of the scene, file and format, and the renders under way.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use egui::{ComboBox, ProgressBar, ScrollArea, TextEdit, Ui};
+use egui::{Align, ComboBox, Layout, ProgressBar, ScrollArea, TextEdit, Ui, vec2};
 
 use super::{SCROLL_MARGIN, group, row::rename};
 use crate::{
     document::Document,
+    export_options::{
+        CUBE_SIZES_PX, Choice, ExportKind, ExportOptions, HDRI_WIDTHS_PX, LAYOUTS, PRIMARIES, SUNS, UNITS, extension,
+    },
     file_dialog::{FileDialogs, Purpose},
     jobs::{Job, Order, Progress, shell_line},
 };
 
-/// What the user has chosen for pictures besides their size.
-#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(default)]
-pub(crate) struct ExportOptions {
-    /// Where the picture goes; the ending decides about the format.
-    pub(crate) path: String,
-    /// Precision of EXR files: 32 bits in place of 16.
-    pub(crate) float: bool,
-    /// Precision of PNG files: 16 bits in place of 8.
-    pub(crate) deep: bool,
-}
-
-impl ExportOptions {
-    /// The file: as typed, or else named after the scene.
-    pub(crate) fn output(&self, document: &Document) -> PathBuf {
-        match self.path.trim() {
-            "" => PathBuf::from(format!("{}.png", document.file_stem())),
-            path => PathBuf::from(path),
-        }
-    }
-
-    /// Options of `tyndall render` that follow from the choices.
-    fn arguments(&self, output: &Path) -> Vec<String> {
-        match extension(output).as_str() {
-            "exr" if self.float => vec!["--float".to_owned()],
-            "png" if self.deep => vec!["--bits".to_owned(), "16".to_owned()],
-            _ => vec![],
-        }
-    }
-}
+/// Width of the words before a line.
+const CAPTION_PT: f32 = 50.0;
 
 /// Renders that were started, the latest last.
 #[derive(Debug, Default)]
@@ -58,7 +33,12 @@ impl Exports {
             self.error = Some(error.to_string());
             return;
         }
-        let order = Order { scene_text: document.to_text(), options: options.arguments(&output), output };
+        let order = Order {
+            verb: options.kind.verb(),
+            scene_text: document.to_text(),
+            options: options.arguments(&output),
+            output,
+        };
         let ctx = ctx.clone();
         match Job::start(&order, move || ctx.request_repaint()) {
             Ok(job) => {
@@ -74,6 +54,9 @@ impl Exports {
         let placeholder = PathBuf::from(format!("{}.toml", document.file_stem()));
         let path = document.path().unwrap_or(&placeholder);
         let mut arguments = document.scene().to_command_line(document.saved_scene(), path);
+        if let Some(verb) = arguments.get_mut(1) {
+            options.kind.verb().clone_into(verb);
+        }
         let output = options.output(document);
         arguments.extend(["-o".to_owned(), output.display().to_string()]);
         arguments.extend(options.arguments(&output));
@@ -90,15 +73,26 @@ pub(crate) fn show(
     dialogs: &FileDialogs,
 ) {
     ScrollArea::vertical().auto_shrink(false).content_margin(SCROLL_MARGIN).show(ui, |ui| {
-        group::show(ui, document.scene_mut(), group::IMAGE, "");
+        ui.horizontal_wrapped(|ui| {
+            for kind in ExportKind::ALL {
+                let (name, hint) = kind.label();
+                ui.selectable_value(&mut options.kind, kind, name).on_hover_text(hint);
+            }
+        });
+        ui.add_space(4.0);
+        match options.kind {
+            ExportKind::Picture => group::show(ui, document.scene_mut(), group::IMAGE, ""),
+            ExportKind::Hdri => hdri(ui, options),
+            ExportKind::Cubemap => cubemap(ui, options),
+        }
         file(ui, document, options, dialogs);
         ui.add_space(6.0);
         ui.horizontal_wrapped(|ui| {
-            if ui.button("Render").on_hover_text("Renders the scene in a process of its own.").clicked() {
+            if ui.button("Render").on_hover_text("Makes the file in a process of its own.").clicked() {
                 exports.start(ui.ctx(), document, options);
             }
             let copy = ui.button("Copy as command line");
-            if copy.on_hover_text("Copies the command that renders this scene without a window.").clicked() {
+            if copy.on_hover_text("Copies the command that makes this file without a window.").clicked() {
                 ui.ctx().copy_text(Exports::command_line(document, options));
             }
         });
@@ -115,23 +109,91 @@ pub(crate) fn show(
 
 fn file(ui: &mut Ui, document: &Document, options: &mut ExportOptions, dialogs: &FileDialogs) {
     let hint = options.output(document).display().to_string();
-    ui.horizontal(|ui| {
-        ui.label("File");
+    line(ui, "File", |ui| {
         let width = ui.available_width() - 80.0;
-        let field = ui.add(TextEdit::singleline(&mut options.path).hint_text(hint).desired_width(width.max(60.0)));
+        let edit = TextEdit::singleline(options.path_mut()).hint_text(hint).desired_width(width.max(60.0));
+        let field = ui.add(edit);
         rename(ui, &field, "Picture file");
-        field.on_hover_text("PNG, JPEG or EXR, by the ending.");
+        field.on_hover_text("The ending decides about the format.");
         if ui.button("Choose...").clicked() {
-            dialogs.start(ui.ctx(), Purpose::ExportPicture, &options.output(document));
+            dialogs.start(ui.ctx(), Purpose::Export(options.kind), &options.output(document));
         }
     });
     let output = options.output(document);
-    ui.horizontal(|ui| match extension(&output).as_str() {
-        "png" => depth(ui, "PNG depth", &mut options.deep, ["8 bits a channel", "16 bits a channel"]),
-        "exr" => depth(ui, "EXR depth", &mut options.float, ["16-bit floats", "32-bit floats"]),
-        "jpg" | "jpeg" => drop(ui.weak("8 bits a channel, compressed with loss")),
-        _ => drop(ui.colored_label(ui.visuals().warn_fg_color, "The ending must be .png, .exr or .jpg.")),
+    if let Some(complaint) = options.complaint(&output) {
+        ui.colored_label(ui.visuals().warn_fg_color, complaint);
+        return;
+    }
+    line(ui, "", |ui| match (options.kind, extension(&output).as_str()) {
+        (ExportKind::Picture, "png") => {
+            depth(ui, "PNG depth", &mut options.deep, ["8 bits a channel", "16 bits a channel"]);
+        }
+        (ExportKind::Picture, "exr") => {
+            depth(ui, "EXR depth", &mut options.float, ["16-bit floats", "32-bit floats"]);
+        }
+        (ExportKind::Hdri, "exr") => {
+            depth(ui, "EXR depth", &mut options.hdri.half, ["32-bit floats", "16-bit floats"]);
+        }
+        (_, "jpg" | "jpeg") => drop(ui.weak("8 bits a channel, compressed with loss")),
+        (ExportKind::Cubemap, "") => drop(ui.weak("Six EXR files in this folder")),
+        _ => {}
     });
+}
+
+/// Options of the light from all around.
+fn hdri(ui: &mut Ui, options: &mut ExportOptions) {
+    let hdri = &mut options.hdri;
+    line(ui, "Width", |ui| {
+        size(ui, "Panorama width", &mut hdri.width_px, &HDRI_WIDTHS_PX, |width| format!("{width} x {} px", width / 2));
+    });
+    line(ui, "Unit", |ui| choice(ui, "Unit of the light", &mut hdri.unit, &UNITS));
+    line(ui, "Sun", |ui| choice(ui, "Sun's disc", &mut hdri.sun, &SUNS));
+    line(ui, "Colours", |ui| choice(ui, "Primaries", &mut hdri.primaries, &PRIMARIES));
+    line(ui, "Ground", |ui| {
+        ui.checkbox(&mut hdri.black_ground, "Black").on_hover_text("For scenes with a ground of their own.");
+    });
+}
+
+/// Options of the six faces.
+fn cubemap(ui: &mut Ui, options: &mut ExportOptions) {
+    let cube = &mut options.cubemap;
+    line(ui, "Face", |ui| size(ui, "Side of a face", &mut cube.size_px, &CUBE_SIZES_PX, |side| format!("{side} px")));
+    line(ui, "Layout", |ui| choice(ui, "Layout of the faces", &mut cube.layout, &LAYOUTS));
+    line(ui, "Sun", |ui| choice(ui, "Sun's disc", &mut cube.sun, &SUNS));
+    line(ui, "Ground", |ui| {
+        ui.checkbox(&mut cube.black_ground, "Black").on_hover_text("For scenes with a ground of their own.");
+    });
+}
+
+/// A caption and what stands beside it.
+fn line(ui: &mut Ui, caption: &str, contents: impl FnOnce(&mut Ui)) {
+    ui.horizontal(|ui| {
+        let size = vec2(CAPTION_PT, ui.spacing().interact_size.y);
+        ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_size(size);
+            ui.label(caption);
+        });
+        contents(ui);
+    });
+}
+
+fn choice(ui: &mut Ui, name: &str, chosen: &mut usize, choices: &[Choice]) {
+    let text = choices.get(*chosen).map_or("", |(_, text, _)| text);
+    let combo = ComboBox::from_id_salt(name).selected_text(text).width(150.0).show_ui(ui, |ui| {
+        for (index, (_, text, hint)) in choices.iter().enumerate() {
+            ui.selectable_value(chosen, index, *text).on_hover_text(*hint);
+        }
+    });
+    rename(ui, &combo.response, name);
+}
+
+fn size(ui: &mut Ui, name: &str, chosen: &mut u32, sizes_px: &[u32], text: impl Fn(u32) -> String) {
+    let combo = ComboBox::from_id_salt(name).selected_text(text(*chosen)).width(150.0).show_ui(ui, |ui| {
+        for size_px in sizes_px {
+            ui.selectable_value(chosen, *size_px, text(*size_px));
+        }
+    });
+    rename(ui, &combo.response, name);
 }
 
 fn depth(ui: &mut Ui, name: &str, high: &mut bool, words: [&str; 2]) {
@@ -177,31 +239,9 @@ fn jobs(ui: &mut Ui, jobs: &mut Vec<Job>) {
     }
 }
 
-/// Ending of a file's name in lower case.
-fn extension(path: &Path) -> String {
-    path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_file_is_named_after_the_scene_until_the_user_names_it() {
-        let document = Document::from_preset(&tyndall_scene::presets()[1]).unwrap();
-        let mut options = ExportOptions::default();
-        assert_eq!(options.output(&document), PathBuf::from("low-sun.png"), "from the title");
-        options.path = " elsewhere/a.exr ".to_owned();
-        assert_eq!(options.output(&document), PathBuf::from("elsewhere/a.exr"), "as typed");
-    }
-
-    #[test]
-    fn options_belong_to_the_format_of_the_file() {
-        let options = ExportOptions { path: String::new(), float: true, deep: true };
-        for (file, expected) in [("a.png", "--bits 16"), ("a.EXR", "--float"), ("a.jpg", "")] {
-            assert_eq!(options.arguments(Path::new(file)).join(" "), expected, "{file}");
-        }
-    }
 
     #[test]
     fn the_command_line_has_the_changes_since_the_file_was_saved() {
@@ -213,5 +253,8 @@ mod tests {
         let line = Exports::command_line(&document, &options);
         assert!(line.starts_with("tyndall render '") || cfg!(windows), "{line}");
         assert!(line.ends_with("--set sun.elevation_deg=4.5 -o out.exr"), "{line}");
+        let options = ExportOptions { kind: ExportKind::Hdri, ..options };
+        let line = Exports::command_line(&document, &options);
+        assert!(line.starts_with("tyndall hdri ") && line.ends_with("-o my scene-sky.exr") || line.ends_with("-o 'my scene-sky.exr'"), "{line}");
     }
 }

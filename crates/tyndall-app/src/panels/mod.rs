@@ -11,6 +11,7 @@ pub(crate) mod plots;
 pub(crate) mod row;
 pub(crate) mod time;
 pub(crate) mod timings;
+pub(crate) mod validate;
 
 /// Room beside the contents of a list for its scroll bar.
 pub(crate) const SCROLL_MARGIN: egui::Margin = egui::Margin { left: 4, right: 10, top: 0, bottom: 0 };

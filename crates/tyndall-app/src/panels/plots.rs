@@ -37,7 +37,7 @@ pub(crate) fn show(ui: &mut Ui, probe: &mut SkyProbe, scene: &Scene, cursor: Opt
         let width = (0.5 * (ui.available_width() - GAP_PT)).max(80.0);
         ui.vertical(|ui| {
             ui.set_width(width);
-            ui.strong("Spectrum under the pointer, mW/m²/sr/nm");
+            ui.strong("Spectrum under the pointer, mW/m²/sr/nm over nm");
             spectrum(ui, answer.cursor.as_ref());
         });
         ui.vertical(|ui| {
@@ -84,7 +84,8 @@ fn spectrum(ui: &mut Ui, sample: Option<&Sample>) {
         WAVELENGTHS_NM.into_iter().zip(sample.radiance.map(|l| l * 1e3)).map(Into::into).collect();
     quiet(Plot::new("spectrum"))
         .include_y(0.0)
-        .x_axis_label("nm")
+        .y_grid_spacer(|input| few(input.bounds))
+        .y_axis_formatter(|mark, _| short(mark.value))
         .label_formatter(|hover| match hover {
             HoverPosition::NearDataPoint { position, .. } => {
                 Some(format!("{:.0} nm\n{:.4} mW/m²/sr/nm", position.x, position.y))
@@ -149,7 +150,21 @@ fn decades((low, high): (f64, f64)) -> Vec<GridMark> {
     let whole = (low.floor() as i32)..=(high.ceil() as i32);
     let steps: &[f64] = if high - low < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
     let marks = whole.flat_map(|decade| steps.iter().map(move |step| f64::from(decade) + step.log10()));
-    marks.map(|value| GridMark { value, step_size: 1.0 }).collect()
+    // Names of marks outside of the frame would stand over what is around it.
+    marks.filter(|mark| (low..=high).contains(mark)).map(|value| GridMark { value, step_size: 1.0 }).collect()
+}
+
+/// Two to five lines at round numbers.
+fn few((low, high): (f64, f64)) -> Vec<GridMark> {
+    let span = high - low;
+    if !(span.is_finite() && span > 0.0) {
+        return Vec::new();
+    }
+    let decade = 10_f64.powf(span.log10().floor());
+    let step =
+        [0.2, 0.5, 1.0].map(|part| part * decade).into_iter().find(|step| span / step <= 5.0).unwrap_or(2.0 * decade);
+    let marks = (0..8).map(|i| ((low / step).ceil() + f64::from(i)) * step);
+    marks.filter(|mark| (low..=high).contains(mark)).map(|value| GridMark { value, step_size: step }).collect()
 }
 
 /// A number as people read it: 4,300 or 0.0021, three digits that count.
@@ -183,6 +198,17 @@ mod tests {
         }
         assert_eq!(short(0.0), "0", "no light");
         assert_eq!(short(1.6e9), "2e9", "the sun");
+    }
+
+    #[test]
+    fn every_axis_has_a_few_lines_within_its_frame() {
+        for (low, high) in [(0.0, 1.0), (-0.3, 17.2), (0.0, 49.0), (1e-7, 2.3e-6), (-4.0, 96.0)] {
+            let marks = few((low, high));
+            assert!((2..=6).contains(&marks.len()), "{low} to {high}: {} lines", marks.len());
+            assert!(marks.iter().all(|mark| (low..=high).contains(&mark.value)), "{low} to {high}");
+        }
+        assert!(few((0.0, 0.0)).is_empty() && few((0.0, f64::INFINITY)).is_empty(), "nothing to show");
+        assert!(decades((-3.2, 4.1)).iter().all(|mark| (-3.2..=4.1).contains(&mark.value)), "within the frame");
     }
 
     #[test]

@@ -15,8 +15,8 @@ use crate::sun_clock::{
 };
 
 /// Sizes of the dial in a narrow and in a wide panel, and the width from which a panel is wide.
-const DIAL_PT: egui::Rangef = egui::Rangef { min: 150.0, max: 210.0 };
-const WIDE_PT: f32 = 430.0;
+const DIAL_PT: egui::Rangef = egui::Rangef { min: 140.0, max: 200.0 };
+const WIDE_PT: f32 = 370.0;
 
 /// Height of the list of places.
 const PLACES_PT: f32 = 260.0;
@@ -35,17 +35,18 @@ impl TimePanel {
     pub(crate) fn show(&mut self, ui: &mut Ui, scene: &mut Scene) {
         ScrollArea::vertical().auto_shrink(false).content_margin(SCROLL_MARGIN).show(ui, |ui| {
             let day = self.day_of(&scene.sun);
-            let is_wide = ui.available_width() >= WIDE_PT;
-            let size_pt = DIAL_PT.clamp(ui.available_width() * 0.5);
-            if is_wide {
+            let size_pt = DIAL_PT.clamp(ui.available_width() * 0.46);
+            if ui.available_width() >= WIDE_PT {
                 ui.horizontal_top(|ui| {
                     ui.vertical(|ui| show_dial(ui, scene, day.as_ref(), size_pt));
-                    ui.add_space(8.0);
-                    ui.vertical(|ui| self.controls(ui, scene, day.as_ref()));
+                    ui.add_space(4.0);
+                    ui.vertical(|ui| lights(ui, &mut scene.sun, day.as_ref()));
                 });
+                self.controls(ui, scene);
             } else {
                 ui.vertical_centered(|ui| show_dial(ui, scene, day.as_ref(), size_pt));
-                self.controls(ui, scene, day.as_ref());
+                self.controls(ui, scene);
+                lights(ui, &mut scene.sun, day.as_ref());
             }
         });
     }
@@ -68,7 +69,7 @@ impl TimePanel {
         self.day.as_ref().and_then(|(_, day)| day.clone())
     }
 
-    fn controls(&mut self, ui: &mut Ui, scene: &mut Scene, day: Option<&Day>) {
+    fn controls(&mut self, ui: &mut Ui, scene: &mut Scene) {
         let sun = &mut scene.sun;
         if sun.position == SunPosition::Angles {
             ui.add(Label::new(
@@ -78,11 +79,12 @@ impl TimePanel {
         line(ui, "Place", |ui| self.places(ui, sun));
         line(ui, "Date", |ui| dates(ui, sun));
         line(ui, "Clock", |ui| self.clocks(ui, sun));
-        ui.add_space(4.0);
-        match day {
-            Some(day) => lights(ui, sun, day),
-            None => drop(ui.colored_label(ui.visuals().warn_fg_color, calendar::text(sun))),
+        if sun.position == SunPosition::Angles {
+            ui.add(Label::new(
+                RichText::new("The angles place the sun; anything here lets date and place do it.").weak(),
+            ));
         }
+        ui.add_space(6.0);
     }
 
     fn places(&mut self, ui: &mut Ui, sun: &mut SunParams) {
@@ -172,16 +174,20 @@ fn dates(ui: &mut Ui, sun: &mut SunParams) {
         }
         calendar::text(sun)
     };
-    stepper(ui, "-M", "A month earlier", Step::Months(-1));
-    let text = stepper(ui, "-D", "A day earlier", Step::Days(-1));
+    stepper(ui, "⏪", "A month earlier", Step::Months(-1));
+    let text = stepper(ui, "◀", "A day earlier", Step::Days(-1));
     let size = vec2(106.0, ui.spacing().interact_size.y);
     ui.add_sized(size, Label::new(text));
-    stepper(ui, "+D", "A day later", Step::Days(1));
-    stepper(ui, "+M", "A month later", Step::Months(1));
+    stepper(ui, "▶", "A day later", Step::Days(1));
+    stepper(ui, "⏩", "A month later", Step::Months(1));
 }
 
 /// Times at which the lights of the day begin and end; a click goes there.
-fn lights(ui: &mut Ui, sun: &mut SunParams, day: &Day) {
+fn lights(ui: &mut Ui, sun: &mut SunParams, day: Option<&Day>) {
+    let Some(day) = day else {
+        ui.colored_label(ui.visuals().warn_fg_color, calendar::text(sun));
+        return;
+    };
     let mut wanted_h = None;
     Grid::new("lights").num_columns(4).spacing([10.0, 3.0]).show(ui, |ui| {
         for level in Level::ALL {

@@ -1,0 +1,33 @@
+//! The plots of the sky.
+
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::harness::{Program, click, quick_scene, run, start_with_scene};
+
+/// Points at a place of the view, as shares of its width and height.
+fn point(program: &mut Program, x: f32, y: f32) {
+    let view = program.get_by_role_and_label(Role::Image, "Viewport").rect();
+    program.hover_at(view.min + egui::vec2(x, y) * view.size());
+    run(program);
+}
+
+fn luminance(program: &Program) -> f64 {
+    let node = program.get_by_label_contains(" cd/m²");
+    let text = format!("{node:?}");
+    let number = text.split('"').find(|part| part.ends_with(" cd/m²")).expect("a luminance");
+    number.trim_end_matches(" cd/m²").parse().expect("a number")
+}
+
+#[test]
+fn the_light_under_the_pointer_is_told() {
+    let mut program = start_with_scene(quick_scene());
+    click(&mut program, "Plots");
+    assert!(program.query_by_label_contains("Point at the view").is_some(), "nothing is pointed at yet");
+    point(&mut program, 0.5, 0.1);
+    let high = luminance(&program);
+    point(&mut program, 0.5, 0.4);
+    let low = luminance(&program);
+    assert!(high > 100.0 && low > high, "the sky brightens towards the horizon: {high} and {low} cd/m2");
+    assert!(program.query_by_label_contains("Direction").is_some(), "where it comes from");
+}
