@@ -1,7 +1,9 @@
 //! The desktop program without its window, driven through the names that screen readers see.
 
+mod accuracy;
 mod device_loss;
 mod documents;
+mod exports;
 mod harness;
 mod navigation;
 mod parameters;

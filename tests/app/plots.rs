@@ -1,7 +1,7 @@
 //! The plots of the sky.
 
 use egui::accesskit::Role;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::harness::{Program, click, quick_scene, run, start_with_scene};
 
@@ -13,10 +13,8 @@ fn point(program: &mut Program, x: f32, y: f32) {
 }
 
 fn luminance(program: &Program) -> f64 {
-    let node = program.get_by_label_contains(" cd/m²");
-    let text = format!("{node:?}");
-    let number = text.split('"').find(|part| part.ends_with(" cd/m²")).expect("a luminance");
-    number.trim_end_matches(" cd/m²").parse().expect("a number")
+    let labels = program.get_all_by_label_contains(" cd/m²").filter_map(|node| node.accesskit_node().label());
+    labels.filter_map(|label| label.trim_end_matches(" cd/m²").parse().ok()).next().expect("a number")
 }
 
 #[test]

@@ -24,8 +24,9 @@ const HIGH_KM: f64 = 8.0;
 /// Radii (km) of planets that pass for the Earth.
 const EARTH_RADIUS_KM: std::ops::RangeInclusive<f64> = 6300.0..=6450.0;
 
-/// Aerosol optical depth from which air is thick.
+/// Aerosol optical depth from which, and visibility (km) in haze up to which air is thick.
 const HAZY_DEPTH: f64 = 0.45;
+const HAZY_KM: f64 = 20.0;
 
 impl Chapter {
     /// All, in the order in which they are shown.
@@ -63,7 +64,8 @@ impl Chapter {
 }
 
 fn is_foggy(scene: &Scene) -> bool {
-    scene.atmosphere.aerosol_optical_depth >= HAZY_DEPTH
+    let is_thick = scene.haze.enabled && scene.haze.visibility_km <= HAZY_KM;
+    is_thick || scene.atmosphere.aerosol_optical_depth >= HAZY_DEPTH
 }
 
 #[cfg(test)]
@@ -74,6 +76,9 @@ mod tests {
     fn scenes_stand_where_a_reader_looks_for_them() {
         let mut scene = Scene::default();
         assert_eq!(Chapter::of(&scene), Chapter::Day, "a new scene");
+        scene.haze.enabled = true;
+        assert_eq!(Chapter::of(&scene), Chapter::Fog, "haze");
+        scene.haze.enabled = false;
         scene.sun.elevation_deg = 1.0;
         assert_eq!(Chapter::of(&scene), Chapter::Twilight, "a low sun");
         scene.sun.elevation_deg = -30.0;

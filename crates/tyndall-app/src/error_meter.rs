@@ -95,6 +95,36 @@ struct Run {
     result: Receiver<Result<Option<Report>, String>>,
 }
 
+/// The comparison's end of [`Run`].
+struct Watch {
+    done: Arc<AtomicU32>,
+    cancelled: Arc<AtomicBool>,
+    /// Signs of progress given so far, in units of [`TELL_EVERY`].
+    told: AtomicU32,
+}
+
+impl Watch {
+    /// Notes the share that is done, and wakes the window now and then; whether to go on.
+    fn tell(&self, share: f64, since_start: Duration, wake: &impl Fn()) -> bool {
+        #[expect(clippy::cast_possible_truncation, reason = "a progress bar needs no more")]
+        self.done.store((share as f32).to_bits(), Ordering::Relaxed);
+        let due = u32::try_from(since_start.as_millis() / TELL_EVERY.as_millis()).unwrap_or(u32::MAX);
+        if self.told.swap(due, Ordering::Relaxed) < due {
+            wake();
+        }
+        !self.cancelled.load(Ordering::Relaxed)
+    }
+}
+
+/// Works on all threads but one, which draws the frames meanwhile.
+fn with_a_thread_to_spare<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    let threads = thread::available_parallelism().map_or(1, |count| count.get().saturating_sub(1).max(1));
+    match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+        Ok(pool) => pool.install(work),
+        Err(_no_threads) => work(),
+    }
+}
+
 impl Drop for Run {
     /// A closed window leaves no thread at work.
     fn drop(&mut self) {
@@ -122,29 +152,16 @@ impl ErrorMeter {
         let (directions, paths) = thoroughness.size();
         let options = ValidateOptions { directions, paths, quality: subject.quality, ..ValidateOptions::default() };
         let (done, cancelled) = (Arc::new(AtomicU32::new(0)), Arc::new(AtomicBool::new(false)));
+        let watch = Watch { done: Arc::clone(&done), cancelled: Arc::clone(&cancelled), told: AtomicU32::new(0) };
         let (sender, result) = channel();
-        let work = {
-            let (subject, done, cancelled) = (subject.clone(), Arc::clone(&done), Arc::clone(&cancelled));
-            move || {
-                let last = AtomicU32::new(0);
-                let started = Instant::now();
-                let progress = |share: f64| {
-                    #[expect(clippy::cast_possible_truncation, reason = "a progress bar needs no more")]
-                    done.store((share as f32).to_bits(), Ordering::Relaxed);
-                    let ticks = u32::try_from(started.elapsed().as_millis() / TELL_EVERY.as_millis());
-                    if ticks.is_ok_and(|ticks| last.swap(ticks, Ordering::Relaxed) < ticks) {
-                        wake();
-                    }
-                    !cancelled.load(Ordering::Relaxed)
-                };
-                let compare = || validate(&subject.model, (subject.altitude_m, subject.mu_sun), &options, &progress);
-                // Frames are drawn meanwhile: they keep a thread.
-                let threads = thread::available_parallelism().map_or(1, |count| count.get().saturating_sub(1).max(1));
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-                let report = pool.map_or_else(|_no_threads| compare(), |pool| pool.install(compare));
-                if sender.send(report.map_err(|error| error.to_string())).is_ok() {
-                    wake();
-                }
+        let judged = subject.clone();
+        let work = move || {
+            let started = Instant::now();
+            let progress = |share: f64| watch.tell(share, started.elapsed(), &wake);
+            let observer = (judged.altitude_m, judged.mu_sun);
+            let report = with_a_thread_to_spare(|| validate(&judged.model, observer, &options, &progress));
+            if sender.send(report.map_err(|error| error.to_string())).is_ok() {
+                wake();
             }
         };
         self.error = thread::Builder::new().name("error meter".to_owned()).spawn(work).err().map(|e| e.to_string());

@@ -280,7 +280,8 @@ mod tests {
             assert!(of(kind).arguments(Path::new("a.exr")).is_empty(), "{kind:?}");
         }
         let mut options = of(ExportKind::Hdri);
-        options.hdri = HdriOptions { width_px: 4096, unit: 1, sun: 2, primaries: 1, black_ground: true, ..options.hdri };
+        options.hdri =
+            HdriOptions { width_px: 4096, unit: 1, sun: 2, primaries: 1, black_ground: true, ..options.hdri };
         let line = options.arguments(Path::new("a.exr")).join(" ");
         assert_eq!(line, "--width 4096 --units cd/m2 --sun lamp --primaries acescg --ground black", "{line}");
         let mut options = of(ExportKind::Cubemap);

@@ -240,8 +240,12 @@ mod tests {
         let program = folder.path().join("program");
         std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
-        let order =
-            Order { verb: "render", scene_text: "format = 1\n".to_owned(), output: folder.path().join("a.png"), options: vec![] };
+        let order = Order {
+            verb: "render",
+            scene_text: "format = 1\n".to_owned(),
+            output: folder.path().join("a.png"),
+            options: vec![],
+        };
         let (woken, wakes) = channel();
         let wake = move || woken.send(()).unwrap_or_default();
         let mut job = Job::start_program(&program, &order, wake).unwrap();
@@ -280,7 +284,8 @@ mod tests {
 
     #[test]
     fn a_missing_program_is_named() {
-        let order = Order { verb: "render", scene_text: String::new(), output: PathBuf::from("a.png"), options: vec![] };
+        let order =
+            Order { verb: "render", scene_text: String::new(), output: PathBuf::from("a.png"), options: vec![] };
         let error = Job::start_program(Path::new("/nowhere/tyndall"), &order, || {}).unwrap_err();
         assert!(error.to_string().contains("/nowhere/tyndall"), "{error}");
     }

@@ -119,7 +119,7 @@ impl Stage {
     }
 
     /// Whether the window will wake up for the timings of the picture.
-    fn awaits_timings(&self) -> bool {
+    pub(crate) fn awaits_timings(&self) -> bool {
         self.timings_tries > 0 && self.engine().is_some_and(Engine::awaits_timings)
     }
 

@@ -79,7 +79,8 @@ impl Workbench {
 
     /// Whether something is being computed beside the frames that a panel or the picture will show.
     pub(crate) fn is_busy(&self) -> bool {
-        self.stage.as_ref().is_some_and(Stage::is_building) || self.probe.is_busy()
+        let stage = self.stage.as_ref();
+        stage.is_some_and(|stage| stage.is_building() || stage.awaits_timings()) || self.probe.is_busy()
     }
 
     /// Another document: what moves on its own stops.

@@ -255,6 +255,10 @@ mod tests {
         assert!(line.ends_with("--set sun.elevation_deg=4.5 -o out.exr"), "{line}");
         let options = ExportOptions { kind: ExportKind::Hdri, ..options };
         let line = Exports::command_line(&document, &options);
-        assert!(line.starts_with("tyndall hdri ") && line.ends_with("-o my scene-sky.exr") || line.ends_with("-o 'my scene-sky.exr'"), "{line}");
+        assert!(
+            line.starts_with("tyndall hdri ") && line.ends_with("-o my scene-sky.exr")
+                || line.ends_with("-o 'my scene-sky.exr'"),
+            "{line}"
+        );
     }
 }

@@ -174,12 +174,12 @@ fn dates(ui: &mut Ui, sun: &mut SunParams) {
         }
         calendar::text(sun)
     };
-    stepper(ui, "⏪", "A month earlier", Step::Months(-1));
-    let text = stepper(ui, "◀", "A day earlier", Step::Days(-1));
+    stepper(ui, "«", "A month earlier", Step::Months(-1));
+    let text = stepper(ui, "‹", "A day earlier", Step::Days(-1));
     let size = vec2(106.0, ui.spacing().interact_size.y);
     ui.add_sized(size, Label::new(text));
-    stepper(ui, "▶", "A day later", Step::Days(1));
-    stepper(ui, "⏩", "A month later", Step::Months(1));
+    stepper(ui, "›", "A day later", Step::Days(1));
+    stepper(ui, "»", "A month later", Step::Months(1));
 }
 
 /// Times at which the lights of the day begin and end; a click goes there.

@@ -56,7 +56,10 @@ fn controls(ui: &mut Ui, meter: &mut ErrorMeter, thoroughness: &mut Thoroughness
         ui.selectable_value(thoroughness, choice, name).on_hover_text(hint);
     }
     if scene.sky.orders == Orders::Single {
-        ui.colored_label(ui.visuals().warn_fg_color, "Pictures of this scene leave out light scattered more than once.");
+        ui.colored_label(
+            ui.visuals().warn_fg_color,
+            "Pictures of this scene leave out light scattered more than once.",
+        );
     }
 }
 
