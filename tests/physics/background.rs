@@ -3,9 +3,10 @@
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use tyndall_render::sky::{TableBuilding, Wake};
+use tyndall_render::sky::{OrdersRequest, OrdersTable, TableBuilding, Wake};
 use tyndall_scene::Scene;
 
+use crate::gpu_orders::small;
 use crate::render::{Studio, scene};
 
 const SIZE: [u32; 2] = [48, 32];
@@ -81,4 +82,42 @@ fn a_change_of_mind_back_to_single_scattering_leaves_nothing_to_wait_for() {
     let shown = picture(&mut studio, &single);
     assert!(!studio.renderer.table_progress().building, "no table is needed");
     assert!(shown == picture(&mut Studio::new(), &single), "light that was scattered once");
+}
+
+fn bytes(studio: &Studio, orders: &OrdersTable) -> Vec<u8> {
+    studio.gpu.read_buffer(orders.table()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_table_that_the_shaders_spread_over_frames_is_the_one_made_at_once() {
+    let mut studio = Studio::new();
+    let (clear, hazy) = (coarse("0.05"), coarse("0.6"));
+    let models = [clear.model(), hazy.model()];
+    let mut orders = OrdersTable::new(studio.gpu).unwrap_or_else(|error| panic!("{error}"));
+    orders.use_shaders();
+    orders.set_building(TableBuilding::Background(Wake::new(|| {})));
+    let mut shares = Vec::new();
+    // The first table is waited for; then frames show other air while the second one is under way.
+    for (frame, (shown, wanted)) in [(&clear, 0), (&hazy, 1), (&clear, 1)].into_iter().cycle().take(30).enumerate() {
+        let wanted = if frame > 0 { 1 } else { wanted };
+        studio.shoot(shown, [8, 8]);
+        let request = OrdersRequest { model: &models[wanted], quality: Some(small()), brightness: 1.0 };
+        orders
+            .update(studio.gpu, studio.renderer.tables().columns(), &request)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let progress = orders.progress();
+        assert_eq!(progress.building, progress.needs_frame, "frames bring the table forward");
+        shares.extend(progress.done);
+        if frame > 0 && !progress.building {
+            break;
+        }
+    }
+    assert!(!shares.is_empty() && shares.is_sorted(), "it took some frames: {shares:?}");
+    let spread = bytes(&studio, &orders);
+
+    studio.shoot(&hazy, [8, 8]);
+    let mut at_once = OrdersTable::new(studio.gpu).unwrap_or_else(|error| panic!("{error}"));
+    let columns = studio.renderer.tables().columns();
+    at_once.fill_on_gpu(studio.gpu, columns, &models[1], &small()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(spread == bytes(&studio, &at_once), "same bytes, though the columns changed meanwhile");
 }

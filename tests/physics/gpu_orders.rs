@@ -14,7 +14,7 @@ use crate::render::{Studio, scene};
 const TARGET: f64 = 5e-3;
 
 /// Sizes at which the software adapter takes part of a second.
-fn small() -> OrdersQuality {
+pub(crate) fn small() -> OrdersQuality {
     OrdersQuality {
         altitudes: 8,
         suns_above: 6,

@@ -3,7 +3,7 @@
 //! made beside the frames. Whatever does not touch them, as the camera and the sun's place do not, keeps what is there.
 
 use tyndall_scattering::Atmosphere;
-use tyndall_scene::{Orders, OrdersDetail, Scene};
+use tyndall_scene::{Orders, OrdersDetail, Scene, SkyParams};
 
 /// Remembers which tables the renderer holds.
 #[derive(Clone, Debug, Default)]
@@ -27,6 +27,19 @@ impl Detail {
     pub(crate) fn drawn_fine(&mut self, scene: &Scene) {
         self.fine_for = Some(scene.model());
     }
+}
+
+/// Least rows and columns of the sky's table in a reduced picture.
+const LEAST_ELEVATIONS: u32 = 96;
+const LEAST_AZIMUTHS: u32 = 32;
+
+/// A scene for a picture of reduced resolution, which shows no more of the sky's table than half of its rows and columns.
+pub(crate) fn reduced(scene: Scene) -> Scene {
+    let mut reduced = scene;
+    let SkyParams { table_elevations, table_azimuths, .. } = &mut reduced.sky;
+    *table_elevations = (*table_elevations / 2).max(LEAST_ELEVATIONS.min(*table_elevations));
+    *table_azimuths = (*table_azimuths / 2).max(LEAST_AZIMUTHS.min(*table_azimuths));
+    reduced
 }
 
 /// A scene for a small picture, which shows no fine tables.
@@ -53,6 +66,15 @@ mod tests {
         assert_eq!(detail.quick(&scene), coarse(&scene), "new tables");
         scene.atmosphere.ozone_du = 300.0;
         assert_eq!(detail.quick(&scene), coarse(&scene), "the fine ones are gone");
+    }
+
+    #[test]
+    fn a_reduced_picture_has_a_smaller_table_but_never_a_larger_one() {
+        let halved = reduced(Scene::default()).sky;
+        assert_eq!((halved.table_elevations, halved.table_azimuths), (160, 48), "half of the default");
+        let mut small = Scene::default();
+        (small.sky.table_elevations, small.sky.table_azimuths) = (40, 16);
+        assert_eq!(reduced(small.clone()), small, "small already");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use tyndall_render::FrameTarget;
 use tyndall_scene::{ImageParams, Scene};
 
 use crate::{
-    detail::Detail,
+    detail::{self, Detail},
     engine::{Engine, Problem},
     preview::{Preview, reduced},
 };
@@ -164,6 +164,7 @@ impl Stage {
         if self.tried.as_ref() != Some(&wanted) {
             let divisor = if moving { self.preview.divisor(view_px) } else { 1 };
             let quick = self.detail.quick(scene);
+            let quick = if divisor > 1 { detail::reduced(quick) } else { quick };
             let is_preview = divisor > 1 || quick != *scene;
             self.refine_at_s = is_preview.then_some(now_s + REST_S);
             self.tried = Some(wanted);
