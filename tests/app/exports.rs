@@ -3,7 +3,7 @@
 use egui::{OutputCommand, accesskit::Role};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::harness::{Program, click, quick_scene, run, set_slider, start_with_scene};
+use crate::harness::{Program, click, quick_scene, run, set_slider, start_with_scene, type_into};
 
 /// The command line that the panel copies.
 fn copied(program: &mut Program) -> String {
@@ -50,7 +50,6 @@ fn an_ending_that_will_be_refused_is_told_at_once() {
     let mut program = start_with_scene(quick_scene());
     click(&mut program, "Export");
     click(&mut program, "HDRI");
-    program.get_by_label("Picture file").type_text("sky.png");
-    run(&mut program);
+    type_into(&mut program, "Picture file", "sky.png");
     assert!(program.query_by_label_contains("must be .exr or .hdr").is_some(), "the reason");
 }

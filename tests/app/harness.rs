@@ -113,3 +113,11 @@ pub(crate) fn set_slider(program: &mut Program, name: &str, value: f64) {
     program.get_by_role_and_label(Role::Slider, name).set_value_accesskit(value);
     run(program);
 }
+
+/// Types into a field.
+pub(crate) fn type_into(program: &mut Program, name: &str, text: &str) {
+    program.get_by_label(name).focus();
+    run(program);
+    program.get_by_label(name).type_text(text);
+    run(program);
+}

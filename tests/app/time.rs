@@ -4,7 +4,7 @@ use egui::{Event, Key, Modifiers, PointerButton, accesskit::Role, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use tyndall_scene::{Scene, SunParams, SunPosition};
 
-use crate::harness::{Program, click, picture, press, quick_scene, rest, run, start_with_scene};
+use crate::harness::{Program, click, picture, press, quick_scene, rest, run, start_with_scene, type_into};
 
 const DIAL: &str = "Time of day";
 
@@ -104,8 +104,7 @@ fn a_place_is_found_by_its_name_and_brings_its_clock() {
     let mut program = start();
     program.get_by_role_and_label(Role::ComboBox, "Place").click_accesskit();
     run(&mut program);
-    program.get_by_label("Search places").type_text("norway berg");
-    run(&mut program);
+    type_into(&mut program, "Search places", "norway berg");
     assert!(program.query_by_label("Place: Tokyo").is_none(), "only what was searched for");
     program.get_by_label("Place: Bergen").click_accesskit();
     run(&mut program);
