@@ -20,6 +20,14 @@ pub(crate) struct Bands {
     lattice: Lattice,
     rows: usize,
     lists: Vec<Vec<Vec<(u32, i32)>>>,
+    counts: Vec<Crossings>,
+}
+
+/// Sand that crossed the edges of the bed (quanta).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Crossings {
+    pub(crate) entered: i64,
+    pub(crate) left: i64,
 }
 
 /// Where the thread of a band puts sand.
@@ -28,6 +36,7 @@ pub(crate) struct Sink<'a> {
     first: usize,
     own: &'a mut [i32],
     lists: &'a mut [Vec<(u32, i32)>],
+    crossings: &'a mut Crossings,
 }
 
 impl Sink<'_> {
@@ -40,6 +49,16 @@ impl Sink<'_> {
             self.lists[index / self.own.len()].push((index as u32, amount));
         }
     }
+
+    /// Notes that `amount` came in over an edge.
+    pub(crate) fn enter(&mut self, amount: i32) {
+        self.crossings.entered += i64::from(amount);
+    }
+
+    /// Notes that `amount` left over an edge.
+    pub(crate) fn leave(&mut self, amount: i32) {
+        self.crossings.left += i64::from(amount);
+    }
 }
 
 impl Bands {
@@ -47,7 +66,7 @@ impl Bands {
         // Both are powers of two, so the bands are equal.
         let rows = (lattice.ny() / MAX_BANDS).max(MIN_ROWS).min(lattice.ny());
         let count = lattice.ny() / rows;
-        Self { lattice, rows, lists: vec![vec![Vec::new(); count]; count] }
+        Self { lattice, rows, lists: vec![vec![Vec::new(); count]; count], counts: vec![Crossings::default(); count] }
     }
 
     /// Cells of a band.
@@ -55,14 +74,23 @@ impl Bands {
         self.rows * self.lattice.nx()
     }
 
+    /// What crossed the edges in the last [`Bands::collect`].
+    pub(crate) fn crossings(&self) -> Crossings {
+        let sum = |field: fn(&Crossings) -> i64| self.counts.iter().map(field).sum();
+        Crossings { entered: sum(|count| count.entered), left: sum(|count| count.left) }
+    }
+
     /// Sets `change` to zero, runs `work(rows, sink)` for every band, and delivers what went to other bands.
     pub(crate) fn collect(&mut self, change: &mut [i32], work: impl Fn(Range<usize>, &mut Sink<'_>) + Sync) {
         let (rows, cells) = (self.rows, self.cells());
-        change.par_chunks_mut(cells).zip(&mut self.lists).enumerate().for_each(|(band, (own, lists))| {
-            own.fill(0);
-            lists.iter_mut().for_each(Vec::clear);
-            work(band * rows..(band + 1) * rows, &mut Sink { first: band * cells, own, lists });
-        });
+        change.par_chunks_mut(cells).zip(&mut self.lists).zip(&mut self.counts).enumerate().for_each(
+            |(band, ((own, lists), crossings))| {
+                *crossings = Crossings::default();
+                own.fill(0);
+                lists.iter_mut().for_each(Vec::clear);
+                work(band * rows..(band + 1) * rows, &mut Sink { first: band * cells, own, lists, crossings });
+            },
+        );
         let lists = &self.lists;
         change.par_chunks_mut(cells).enumerate().for_each(|(band, own)| {
             for &(index, amount) in lists.iter().flat_map(|from| &from[band]) {

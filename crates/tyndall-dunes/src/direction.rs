@@ -41,9 +41,32 @@ impl Direction {
     #[inline(always)]
     #[must_use]
     pub fn hop(self, length_256: i32, dither: [i32; 2]) -> [i32; 2] {
-        let part =
-            |part: i32, dither: i32| part.signum() * ((((part.abs() * length_256) >> DIRECTION_BITS) + dither) >> 8);
-        [part(self.x, dither[0]), part(self.y, dither[1])]
+        self.stride(length_256).dithered(dither)
+    }
+
+    /// The part of [`Direction::hop`] that does not depend on the dither.
+    #[inline(always)]
+    #[must_use]
+    pub fn stride(self, length_256: i32) -> Stride {
+        let part = |part: i32| (part.abs() * length_256) >> DIRECTION_BITS;
+        Stride { parts_256: [part(self.x), part(self.y)], signs: [self.x.signum(), self.y.signum()] }
+    }
+}
+
+/// A hop before dithering.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stride {
+    parts_256: [i32; 2],
+    signs: [i32; 2],
+}
+
+impl Stride {
+    /// The displacement with this dither (0..256 each).
+    #[inline(always)]
+    #[must_use]
+    pub fn dithered(self, dither: [i32; 2]) -> [i32; 2] {
+        let part = |axis: usize| self.signs[axis] * ((self.parts_256[axis] + dither[axis]) >> 8);
+        [part(0), part(1)]
     }
 }
 

@@ -61,6 +61,13 @@ impl Lattice {
         ((y as usize & mask_y) << self.log2[0]) | (x as usize & mask_x)
     }
 
+    /// Whether the coordinates are beyond an edge.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_outside(self, x: i32, y: i32) -> bool {
+        x < 0 || y < 0 || x >= self.nx() as i32 || y >= self.ny() as i32
+    }
+
     /// Column and row of an index.
     #[inline(always)]
     #[must_use]

@@ -2,6 +2,9 @@
 //!
 //! - [`ripples`]: the ripple automaton of Nishimori and Ouchi 1993, and its linear theory.
 //! - [`measure`]: wavelength, slopes, crests, separate heaps.
+//! - [`slab`]: fields of dunes from slabs of sand; also the rule of Onoue and Nishita 2000.
+//! - [`wind`], [`wind_rose`], [`crest_theory`]: winds that take turns, also from measurements, and the crests to expect.
+//! - [`presets`]: deserts to start from.
 //! - [`shadow`]: the wind shadow behind crests.
 //!
 //! Every decision is made in 32-bit integers on random words that are pure functions of (seed, step, cell), so a seed
@@ -16,20 +19,27 @@
     reason = "integers are the matter of this crate: sides are below 2^13, beds below 2^26 cells, and parameters are checked against ranges that keep every product within 32 bits"
 )]
 
+pub mod crest_theory;
 mod deposits;
 pub mod direction;
 pub mod edges;
 mod error;
 pub mod hash;
 pub mod lattice;
+mod ledger;
 pub mod measure;
+pub mod presets;
 pub mod ripples;
 pub mod shadow;
 mod side;
 mod simulation;
+pub mod slab;
+pub mod wind;
+pub mod wind_rose;
 
 pub use edges::Edges;
 pub use error::DuneError;
 pub use lattice::Lattice;
+pub use ledger::Ledger;
 pub use side::Side;
 pub use simulation::{SandSimulation, StateHash};

@@ -16,5 +16,6 @@ mod rule;
 pub mod split_bed;
 
 pub use bed::RippleBed;
+pub(crate) use nishimori_ouchi1993::creep;
 pub use params::RippleParams;
 pub use rule::{CREEP_BITS, LEE_REACH_CELLS, MAX_HOP_CELLS, MAX_RELIEF, RIPPLE_QUANTA_PER_CELL, RippleRule};

@@ -227,7 +227,7 @@ fn fluxes_to(here: &[i32], there: &[i32], share: i32, limit: i32, out: &mut [i32
 
 /// Flux to a cell from a neighbour that stands higher by `difference`.
 #[inline(always)]
-pub(super) fn creep(difference: i32, share: i32, limit: i32) -> i32 {
+pub(crate) fn creep(difference: i32, share: i32, limit: i32) -> i32 {
     let product = difference.clamp(-limit, limit) * share;
     // Division by a power of two that truncates towards zero, as "/" does in WGSL.
     (product + ((product >> 31) & ((1 << CREEP_BITS) - 1))) >> CREEP_BITS

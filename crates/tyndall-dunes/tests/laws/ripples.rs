@@ -1,8 +1,6 @@
 //! Laws of the ripple automaton.
 
-mod support;
-
-use support::{on_threads, rows_of};
+use crate::support::{on_threads, r_squared, rows_of};
 use tyndall_dunes::measure::{HeightGrid, drift_cells, mean_wavelength_cells};
 use tyndall_dunes::ripples::linear_theory::{LinearRule, Regime, regime};
 use tyndall_dunes::ripples::split_bed::SplitBed;
@@ -123,7 +121,7 @@ fn without_dithering_a_turned_wind_turns_the_bed() {
 
 #[test]
 fn growth_factors_of_the_table_are_those_of_the_closed_form() {
-    for row in rows_of(include_str!("data/no_ripple_dispersion.csv")) {
+    for row in rows_of(include_str!("../data/no_ripple_dispersion.csv")) {
         let [hop_cells, hop_per_height, layer_cells, creep, mode, count, _, growth, phase] = row[..9] else {
             panic!("9 columns")
         };
@@ -172,7 +170,7 @@ fn small_waves_grow_as_the_closed_form_says() {
 
 #[test]
 fn ripples_set_in_where_the_table_says() {
-    for row in rows_of(include_str!("data/no_ripple_onset.csv")) {
+    for row in rows_of(include_str!("../data/no_ripple_onset.csv")) {
         let [hop_cells, hop_per_height, creep, layer_cells, _] = row[..5] else { panic!("5 columns") };
         let rule = LinearRule { hop_cells, hop_per_height, layer_cells, creep };
         let onset = rule.onset_layer_cells().unwrap();
@@ -210,7 +208,7 @@ fn late_wavelengths_are_proportional_to_the_hop() {
         assert!((1.45..=1.8).contains(&(wavelength / hop_cells)), "L0 {hop_cells}: {mean:?}");
         points.push((hop_cells, wavelength));
     }
-    assert!(support::r_squared(&points) >= 0.98, "linear in L0: {points:?}");
+    assert!(r_squared(&points) >= 0.98, "linear in L0: {points:?}");
 }
 
 #[test]
