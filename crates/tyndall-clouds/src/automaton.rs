@@ -170,6 +170,26 @@ impl Automaton {
         Ok(())
     }
 
+    /// Puts back what [`ProbabilityLayer::state`] of each layer gave; nothing changes when one refuses.
+    ///
+    /// # Errors
+    /// When there are not the numbers of each layer.
+    pub fn restore_layers(&mut self, states: &[&[f64]]) -> Result<(), CloudError> {
+        let (found, expected) = (states.len(), self.stack.len());
+        if found != expected {
+            return Err(CloudError::WrongLength { what: "the list of layers".to_owned(), found, expected });
+        }
+        let before: Vec<_> = self.stack.iter().map(|layer| layer.state()).collect();
+        let restored = self.stack.iter_mut().zip(states).try_for_each(|(layer, state)| layer.restore(state));
+        if restored.is_err() {
+            for (layer, state) in self.stack.iter_mut().zip(&before) {
+                layer.restore(state)?;
+            }
+        }
+        self.refresh_probabilities();
+        restored
+    }
+
     /// Makes each cell humid or activated with the probabilities of a stack of layers, as a start; what was set stays set.
     pub fn moisten(&mut self, stack: &[Box<dyn ProbabilityLayer>]) {
         let [nx, ny, _] = self.size();

@@ -4,6 +4,7 @@
 //! - [`write_png8`], [`write_png16`]: display-referred sRGB with the scene hash in a text chunk.
 //! - [`read_picture_header`], [`is_finished`]: what a file says about itself, without decoding its pixels.
 //! - [`TableFolder`]: tables kept between runs, in the user's cache.
+//! - [`write_npz`], [`read_npz`], [`write_npy`], [`read_npy`]: arrays by name, as `NumPy` has them.
 //! - [`atomic`]: a file appears under its name complete or not at all.
 //!
 //! Nothing here knows a GPU; a simulation's user has the writers without one. Not done: tiles, several parts, deep
@@ -17,6 +18,8 @@ mod exr_order;
 mod exr_read;
 mod exr_write;
 mod header;
+mod npy;
+mod npz;
 mod picture;
 mod png_write;
 mod table_folder;
@@ -26,6 +29,7 @@ pub use error::IoError;
 pub use exr_read::read_exr;
 pub use exr_write::{Channels, Compression, ExrOptions, Precision, SKY_DEPTH_M, WriteReport, write_exr};
 pub use header::{PictureFormat, PictureHeader, is_finished, read_picture_header};
+pub use npz::{read_npy, read_npz, write_npy, write_npz};
 pub use picture::{MAX_PIXELS, MAX_SIDE_PX, Picture, PictureMetadata, Projection, check_size};
 pub use png_write::{write_png8, write_png16};
 pub use table_folder::{CACHE_VARIABLE, TableFolder};
