@@ -80,3 +80,16 @@ pub(crate) fn check_params(params: &dyn ParamSet) -> Result<(), DuneError> {
     }
     Ok(())
 }
+
+/// Checks that `value` lies in `low..=high`; NaN does not.
+pub(crate) fn check_value(
+    what: &'static str,
+    value: f64,
+    unit: &'static str,
+    range: std::ops::RangeInclusive<f64>,
+) -> Result<f64, DuneError> {
+    if range.contains(&value) {
+        return Ok(value);
+    }
+    Err(DuneError::Value { what, value, unit, low: *range.start(), high: *range.end() })
+}

@@ -5,7 +5,8 @@
 //! - [`slab`]: fields of dunes from slabs of sand; also the rule of Onoue and Nishita 2000.
 //! - [`wind`], [`wind_rose`], [`crest_theory`]: winds that take turns, also from measurements, and the crests to expect.
 //! - [`presets`]: deserts to start from.
-//! - [`shadow`]: the wind shadow behind crests.
+//! - [`shadow`], [`horizon`]: where the wind and where the sun does not reach.
+//! - [`brush`], [`terrain`], [`export`]: sand by hand, bedrock from outside, maps and tiles for other programs.
 //!
 //! Every decision is made in 32-bit integers on random words that are pure functions of (seed, step, cell), so a seed
 //! gives the same desert on any number of threads, on every system, and in a shader that follows the same lines. Mass is
@@ -19,12 +20,15 @@
     reason = "integers are the matter of this crate: sides are below 2^13, beds below 2^26 cells, and parameters are checked against ranges that keep every product within 32 bits"
 )]
 
+pub mod brush;
 pub mod crest_theory;
 mod deposits;
 pub mod direction;
 pub mod edges;
 mod error;
+pub mod export;
 pub mod hash;
+pub mod horizon;
 pub mod lattice;
 mod ledger;
 pub mod measure;
@@ -34,6 +38,7 @@ pub mod shadow;
 mod side;
 mod simulation;
 pub mod slab;
+pub mod terrain;
 pub mod wind;
 pub mod wind_rose;
 
