@@ -1,5 +1,7 @@
 //! The program `tyndall` as its users meet it: files, sentences and exit codes.
 
+mod blender;
+mod light;
 mod outside;
 mod pictures;
 mod probe;

@@ -25,7 +25,7 @@ impl Gpu {
             let target = wgpu::TexelCopyBufferInfo { buffer: &staging, layout };
             encoder.copy_texture_to_buffer(source, target, texture.size());
         })
-        .map(|padded| rows.without_padding(&padded))
+        .map(|padded| rows.without_padding(padded))
     }
 
     /// The bytes of a buffer. Waits for the work submitted before. The buffer needs the usage `COPY_SRC`.
@@ -149,8 +149,11 @@ impl Rows {
         u64::from(self.stride_bytes) * u64::from(self.per_slice) * u64::from(self.slices)
     }
 
-    fn without_padding(&self, padded: &[u8]) -> Vec<u8> {
+    fn without_padding(&self, padded: Vec<u8>) -> Vec<u8> {
+        if self.tight_bytes == self.stride_bytes {
+            return padded;
+        }
         let tight = self.tight_bytes as usize;
-        padded.chunks(self.stride_bytes as usize).flat_map(|row| &row[..tight]).copied().collect()
+        padded.chunks(self.stride_bytes as usize).map(|row| &row[..tight]).collect::<Vec<_>>().concat()
     }
 }
