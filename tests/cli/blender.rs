@@ -28,7 +28,6 @@ fn checked(python: &PathBuf, place: &Place, words: &[&str]) -> Value {
     let text = String::from_utf8_lossy(&output.stdout);
     let result = text.lines().find_map(|line| line.strip_prefix("RESULT "));
     let result = result.unwrap_or_else(|| panic!("{text}\n{}", String::from_utf8_lossy(&output.stderr)));
-    println!("{result}");
     serde_json::from_str(result).expect("JSON")
 }
 
@@ -48,6 +47,7 @@ fn blender_sees_the_sun_in_its_place_and_a_grey_plane_as_bright_as_computed() {
     }
     let disc = checked(&python, &place, &["disc.exr", "--samples", "256"]);
     let lamp = checked(&python, &place, &["lamp.exr", "--lamp", "--samples", "256"]);
+    println!("by the disc: {disc}\nby the lamp: {lamp}");
     let number = |value: &Value| value.as_f64().expect("a number");
     assert!(number(&disc["sun_error_px"]) < 0.5, "the sun is {} px away", disc["sun_error_px"]);
     for (how, result) in [("disc", &disc), ("lamp", &lamp)] {

@@ -19,7 +19,7 @@ fn hdri(words: &[&str]) -> (Picture, PictureMetadata, Value) {
     let place = Place::new();
     place.run(&[&["hdri", "preset:noon", "-o", "sky.exr", "--width", "256"], &QUICK[..], words].concat()).succeeded();
     assert_eq!(place.files(), ["sky.exr", "sky.json"], "the file, its sidecar and no litter");
-    let (picture, metadata) = read_exr(place.path("sky.exr")).unwrap();
+    let (picture, metadata) = read_exr(place.path("sky.exr")).expect("an EXR file");
     (picture, metadata, serde_json::from_slice(&place.read("sky.json")).expect("JSON"))
 }
 
@@ -106,7 +106,8 @@ fn a_night_has_no_sun_and_a_black_ground_no_light() {
     let (picture, _, sidecar) = hdri(&["--set", "sun.elevation_deg=-8", "--ground", "black"]);
     assert!(sidecar["sun"].is_null(), "{sidecar}");
     let luminance = |pixel: &[f32; 4]| luminance_from_rec709([pixel[0], pixel[1], pixel[2]].map(f64::from));
-    assert!(picture.rgba[..256 * 60].iter().all(|pixel| luminance(pixel) > 0.0), "twilight");
+    // Light of one order leaves the sky in the earth's shadow black, but not the side of the sun.
+    assert!(picture.rgba[..256 * 60].iter().any(|pixel| luminance(pixel) > 0.0), "twilight");
     assert!(picture.rgba[256 * 65..].iter().all(|pixel| luminance(pixel) <= 0.0), "no ground");
 }
 
