@@ -8,6 +8,12 @@ pub const SCENES: &[(&str, &str)] = &[
     ("sunset", include_str!("../scenes/sunset.toml")),
     ("twilight", include_str!("../scenes/twilight.toml")),
     ("high-altitude", include_str!("../scenes/high-altitude.toml")),
+    ("hazy", include_str!("../scenes/hazy.toml")),
+    ("desert-dust", include_str!("../scenes/desert-dust.toml")),
+    ("mars", include_str!("../scenes/mars.toml")),
+    ("atmosphere-blender", include_str!("../scenes/atmosphere-blender.toml")),
+    ("atmosphere-unreal", include_str!("../scenes/atmosphere-unreal.toml")),
+    ("atmosphere-bruneton", include_str!("../scenes/atmosphere-bruneton.toml")),
 ];
 
 /// The stars of the Bright Star Catalogue as comma-separated values; `assets/stars/README.md` says what and whence.

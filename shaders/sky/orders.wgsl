@@ -18,9 +18,9 @@ struct Orders {
     degree: u32,                   // of the harmonics, 0..4
     brightness: f32,               // 1, factor on the table's light; 0 switches it off
     lowest_mu_sun: f32,            // zenith cosine of the lowest sun
-    padding0: u32,
-    padding1: u32,
-    padding2: u32,
+    haze_even: u32,                // intervals of altitude in the even part of the haze
+    haze_thinning: u32,            // intervals where it thins out; 0 without haze
+    padding: u32,
 }
 @group(0) @binding(10) var<uniform> orders: Orders;
 

@@ -4,7 +4,8 @@
 //! except where all orders matter: the tables of the others take seconds on a software adapter.
 
 use tyndall_scene::{
-    ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, OrdersDetail, Scene, SkyMode, SunPosition,
+    AerosolInput, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, OrdersDetail, Scene, SkyMode,
+    SunPosition,
 };
 
 /// A scene and the parameters that are tried in it.
@@ -37,6 +38,7 @@ pub(crate) const ALL: &[Precondition] = &[
             ("sun.azimuth_deg", None),
             ("sun.position", None),
             ("sun.brightness", None),
+            ("ground.material", None),
             ("ground.red", None),
             ("ground.green", None),
             ("ground.blue", None),
@@ -67,7 +69,9 @@ pub(crate) const ALL: &[Precondition] = &[
             ("atmosphere.air_scale_height_km", None),
             ("atmosphere.air_model", None),
             ("atmosphere.aerosol_optical_depth", None),
+            ("atmosphere.aerosol_input", None),
             ("atmosphere.aerosol_angstrom", None),
+            ("atmosphere.aerosol_blue_loss", None),
             ("atmosphere.aerosol_albedo", None),
             ("atmosphere.aerosol_asymmetry", None),
             ("atmosphere.aerosol_scale_height_km", None),
@@ -104,6 +108,22 @@ pub(crate) const ALL: &[Precondition] = &[
             ("haze.backward_asymmetry", None),
             ("haze.forward_weight", None),
         ],
+    },
+    Precondition {
+        name: "aerosol by visibility",
+        prepare: |scene| {
+            manual(scene);
+            scene.atmosphere.aerosol_input = AerosolInput::Visibility;
+        },
+        parameters: &[("atmosphere.aerosol_visibility_km", None)],
+    },
+    Precondition {
+        name: "aerosol by turbidity",
+        prepare: |scene| {
+            manual(scene);
+            scene.atmosphere.aerosol_input = AerosolInput::Turbidity;
+        },
+        parameters: &[("atmosphere.aerosol_turbidity", None)],
     },
     Precondition {
         name: "the sun's disc, large and dark enough not to be clipped",

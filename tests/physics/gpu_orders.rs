@@ -32,9 +32,10 @@ fn model(scene: &Scene) -> Atmosphere {
 }
 
 /// Scenes that differ in medium; the last planet is not the Earth.
-fn scenes() -> [Scene; 3] {
+fn scenes() -> [Scene; 4] {
     [
         scene("noon", &[]),
+        scene("noon", &[("haze.enabled", "true"), ("haze.visibility_km", "1"), ("haze.angstrom", "0.5")]),
         scene("noon", &[("atmosphere.aerosol_optical_depth", "0.5"), ("ground.red", "0.9"), ("ground.green", "0.8")]),
         scene(
             "noon",
@@ -73,7 +74,7 @@ fn the_orders_table_of_the_gpu_is_the_one_of_the_cpu() {
         let want: Vec<[f32; 8]> = harmonics.chain(source.irradiance_beyond_first_nodes()).collect();
         assert_eq!(got.len(), want.len(), "harmonics and irradiances");
         let count = harmonic_count(quality.degree);
-        let nodes = quality.suns() * quality.altitudes;
+        let nodes = quality.suns() * quality.for_haze_of(&marcher.atmosphere).altitudes;
         let brightest = want.iter().flatten().copied().fold(0.0, f32::max);
         // Below this share of noon's light the last sunbeams have crossed many optical depths of grazing air, whose
         // columns the GPU's quadrature holds to half a per cent.

@@ -26,7 +26,7 @@ fn marcher(scene: &Scene) -> Marcher {
 }
 
 /// Scenes that differ in medium, sun and altitude; the last planet is nothing like the Earth.
-fn scenes() -> [Scene; 4] {
+fn scenes() -> [Scene; 5] {
     let small = ("sky.table_azimuths", "24");
     let few = ("sky.table_elevations", "64");
     // These are the tables of light that was scattered once.
@@ -35,6 +35,7 @@ fn scenes() -> [Scene; 4] {
         scene("noon", &[small, few, single]),
         scene("sunset", &[small, few, single, ("atmosphere.aerosol_optical_depth", "0.5")]),
         scene("twilight", &[small, few, single, ("camera.altitude_m", "12000")]),
+        scene("low-sun", &[small, few, single, ("haze.enabled", "true"), ("haze.visibility_km", "0.5")]),
         scene(
             "noon",
             &[

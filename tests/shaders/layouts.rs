@@ -182,9 +182,9 @@ fn orders() -> (&'static str, StructLayout) {
             degree,
             brightness,
             lowest_mu_sun,
-            padding0,
-            padding1,
-            padding2,
+            haze_even,
+            haze_thinning,
+            padding,
         }),
     )
 }

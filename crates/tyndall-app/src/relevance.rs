@@ -1,6 +1,8 @@
 //! Which parameters have no effect at present, and why: the app shows those disabled.
 
-use tyndall_scene::{ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, Scene, SkyMode, SunPosition};
+use tyndall_scene::{
+    AerosolInput, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, Scene, SkyMode, SunPosition,
+};
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
 pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
@@ -17,6 +19,9 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
             Some("The ground is plain; set Pattern to checker.")
         }
         ("landscape", name) => landscape(scene.landscape.kind, name),
+        ("ground", "red" | "green" | "blue") if scene.ground.material.name() != "colour" => {
+            Some("The ground has the spectrum of a material; set Material to colour.")
+        }
         ("sky", "orders_detail") if scene.sky.orders == Orders::Single => {
             Some("Light counts that was scattered once; set Orders to all.")
         }
@@ -89,9 +94,23 @@ fn atmosphere(scene: &Scene, name: &str) -> Option<&'static str> {
     let air = &scene.atmosphere;
     let none = |amount: f64| amount <= 0.0;
     match name {
+        "aerosol_optical_depth" if air.aerosol_input != AerosolInput::OpticalDepth => {
+            Some("Another number says how much aerosol there is; set Aerosol input to optical-depth.")
+        }
+        "aerosol_visibility_km" if air.aerosol_input != AerosolInput::Visibility => {
+            Some("Another number says how much aerosol there is; set Aerosol input to visibility.")
+        }
+        "aerosol_turbidity" if air.aerosol_input != AerosolInput::Turbidity => {
+            Some("Another number says how much aerosol there is; set Aerosol input to turbidity.")
+        }
         "air_scale_height_km" | "air_model" if none(air.air_density) => Some("There is no air; raise Air density."),
-        "aerosol_angstrom" | "aerosol_albedo" | "aerosol_asymmetry" | "aerosol_scale_height_km" | "aerosol_phase"
-            if none(air.aerosol_optical_depth) =>
+        "aerosol_angstrom"
+        | "aerosol_albedo"
+        | "aerosol_blue_loss"
+        | "aerosol_asymmetry"
+        | "aerosol_scale_height_km"
+        | "aerosol_phase"
+            if air.aerosol_input == AerosolInput::OpticalDepth && none(air.aerosol_optical_depth) =>
         {
             Some("There is no aerosol; raise Aerosol optical depth.")
         }
@@ -153,6 +172,8 @@ mod tests {
             "moon.phase_deg",
             "moon.maria",
             "haze.visibility_km",
+            "atmosphere.aerosol_visibility_km",
+            "atmosphere.aerosol_turbidity",
             "haze.forward_weight",
             "sky.dome_rings",
             "sky.dome_segments",

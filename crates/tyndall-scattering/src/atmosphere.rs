@@ -4,7 +4,9 @@ use tyndall_core::spectrum::{SOLAR_IRRADIANCE_W_M2_NM, Spectrum, WAVELENGTH_COUN
 use tyndall_core::units::{M_PER_KM, MOLECULES_PER_M2_PER_DOBSON_UNIT};
 
 use crate::ScatteringError;
+use crate::aerosol::{aerosol_albedo, aerosol_optical_depth};
 use crate::air::{bodhaine_optical_depth, paper_scattering_per_m};
+use crate::ground::ground_albedo;
 use crate::haze::{HazeParams, haze, no_haze};
 use crate::layer_column::HazeLayer;
 use crate::medium::{Medium, Profile};
@@ -63,7 +65,7 @@ impl Atmosphere {
                 ozone(params, &spectrum),
                 no_haze(WAVELENGTH_COUNT),
             ],
-            ground_albedo: spectrum(&|nm| albedo_from_rgb([ground.red, ground.green, ground.blue], nm)),
+            ground_albedo: spectrum(&|nm| ground_albedo(ground, nm)),
         }
     }
 
@@ -164,14 +166,14 @@ fn air(params: &AtmosphereParams, spectrum: &PerWavelength<'_>) -> Medium {
 
 fn aerosol(params: &AtmosphereParams, spectrum: &PerWavelength<'_>) -> Medium {
     let profile = Profile::Exponential { scale_height_m: params.aerosol_scale_height_km * M_PER_KM };
-    let extinction_per_m = |nm: f64| {
-        params.aerosol_optical_depth * (nm / 550.0).powf(-params.aerosol_angstrom) / profile.vertical_column_m()
-    };
+    let optical_depth = aerosol_optical_depth(params);
+    let extinction_per_m =
+        |nm: f64| optical_depth * (nm / 550.0).powf(-params.aerosol_angstrom) / profile.vertical_column_m();
     let g = params.aerosol_asymmetry;
     Medium {
         profile,
-        scattering_per_m: spectrum(&|nm| params.aerosol_albedo * extinction_per_m(nm)),
-        absorption_per_m: spectrum(&|nm| (1.0 - params.aerosol_albedo) * extinction_per_m(nm)),
+        scattering_per_m: spectrum(&|nm| aerosol_albedo(params, nm) * extinction_per_m(nm)),
+        absorption_per_m: spectrum(&|nm| (1.0 - aerosol_albedo(params, nm)) * extinction_per_m(nm)),
         phase: match params.aerosol_phase {
             AerosolPhase::CornetteShanks => Phase::CornetteShanks { g },
             AerosolPhase::HenyeyGreenstein => Phase::HenyeyGreenstein { g },
@@ -191,14 +193,6 @@ fn ozone(params: &AtmosphereParams, spectrum: &PerWavelength<'_>) -> Medium {
         absorption_per_m: spectrum(&|nm| molecules_per_m3 * ozone_cross_section_m2(nm)),
         phase: Phase::Rayleigh,
     }
-}
-
-/// A smooth reflectance spectrum for an RGB albedo: blue below 480 nm, red above 600 nm, linear blends through green at
-/// 540 nm. The three parts add up to one, so that grey stays grey.
-pub(crate) fn albedo_from_rgb([red, green, blue]: [f64; 3], wavelength_nm: f64) -> f64 {
-    let blue_part = ((540.0 - wavelength_nm) / 60.0).clamp(0.0, 1.0);
-    let red_part = ((wavelength_nm - 540.0) / 60.0).clamp(0.0, 1.0);
-    blue * blue_part + red * red_part + green * (1.0 - blue_part - red_part)
 }
 
 #[cfg(test)]
@@ -261,14 +255,5 @@ mod tests {
         // factor explains 4.8 % and the paper's scale height of 8 km (the true column is 8.44 km) the rest.
         let ratio = zenith_optical_depth(&paper, AIR, 4) / zenith_optical_depth(&standard(), AIR, 4);
         assert!((ratio - 0.907).abs() < 0.005, "{ratio}");
-    }
-
-    #[test]
-    fn grey_ground_stays_grey_and_red_ground_is_red() {
-        for nm in WAVELENGTHS_NM {
-            assert!((albedo_from_rgb([0.3; 3], nm) - 0.3).abs() < 1e-12, "{nm}");
-        }
-        assert!(albedo_from_rgb([1.0, 0.0, 0.0], 654.0) > 0.99, "red light");
-        assert!(albedo_from_rgb([1.0, 0.0, 0.0], 442.0) < 0.01, "blue light");
     }
 }

@@ -3,7 +3,7 @@
 use tyndall_core::units::M_PER_KM;
 use tyndall_core::{choices, params};
 
-use crate::atmosphere::albedo_from_rgb;
+use crate::ground::albedo_from_rgb;
 use crate::medium::{Medium, Profile};
 use crate::phase::Phase;
 

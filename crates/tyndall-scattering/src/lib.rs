@@ -20,6 +20,7 @@
 //!
 //! Not done here: polarisation.
 
+pub mod aerosol;
 pub mod air;
 pub mod atmosphere;
 pub mod atmosphere_file;
@@ -27,6 +28,7 @@ pub mod column_table;
 pub mod dome;
 mod error;
 pub mod geometry;
+pub mod ground;
 pub mod haze;
 mod haze_breaks;
 pub mod irradiance_table;

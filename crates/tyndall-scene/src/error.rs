@@ -56,6 +56,17 @@ pub enum SceneError {
         /// Top of the atmosphere.
         top_altitude_km: f64,
     },
+    /// The air alone hides things nearer than the visibility that was asked for.
+    #[error(
+        "`atmosphere.aerosol_visibility_km` = {visibility_km} km is farther than the air without any aerosol allows, \
+         {clearest_km:.0} km; lower it or `atmosphere.air_density`"
+    )]
+    VisibilityBeyondAir {
+        /// Visibility that was asked for.
+        visibility_km: f64,
+        /// Visibility of the air alone.
+        clearest_km: f64,
+    },
     /// The algorithm for the sun's position refused its input.
     #[error("the sun's position cannot be computed: {reason}")]
     SunPosition {
@@ -170,6 +181,9 @@ impl SceneError {
             Self::Day { .. } => ["sun.day", "sun.month", "sun.year"].map(str::to_owned).to_vec(),
             Self::OzoneAboveTop { .. } => {
                 ["atmosphere.ozone_altitude_km", "atmosphere.top_altitude_km"].map(str::to_owned).to_vec()
+            }
+            Self::VisibilityBeyondAir { .. } => {
+                ["atmosphere.aerosol_visibility_km", "atmosphere.air_density"].map(str::to_owned).to_vec()
             }
             Self::SunPosition { .. } => vec!["sun.position".to_owned()],
             Self::FormatMissing | Self::FormatUnknown { .. } => vec!["format".to_owned()],

@@ -39,4 +39,4 @@ pub use scene::Scene;
 pub use sun::SunDirection;
 pub use tyndall_scattering::Atmosphere;
 pub use tyndall_scattering::haze::{HazeParams, VisibilityContrast};
-pub use tyndall_scattering::params::{AerosolPhase, AirModel, AtmosphereParams, GroundParams};
+pub use tyndall_scattering::params::{AerosolInput, AerosolPhase, AirModel, AtmosphereParams, GroundParams};

@@ -2,12 +2,13 @@
 
 use tyndall_core::units::M_PER_KM;
 use tyndall_core::{ParamInfo, ParamSet};
+use tyndall_scattering::aerosol::clearest_visibility_km;
 use tyndall_scattering::refraction::RefractiveAir;
 
 use crate::landscape::Landscape;
 use crate::{
-    Atmosphere, AtmosphereParams, CameraParams, FilmParams, GroundParams, HazeParams, ImageParams, LandscapeParams,
-    MoonParams, SceneError, SceneHash, SkyParams, StarsParams, SunDirection, SunParams, astronomy,
+    AerosolInput, Atmosphere, AtmosphereParams, CameraParams, FilmParams, GroundParams, HazeParams, ImageParams,
+    LandscapeParams, MoonParams, SceneError, SceneHash, SkyParams, StarsParams, SunDirection, SunParams, astronomy,
     astronomy::MoonState, brief::brief, nearest::nearest, sun,
 };
 
@@ -115,6 +116,11 @@ impl Scene {
         let AtmosphereParams { ozone_du, ozone_altitude_km, top_altitude_km, .. } = self.atmosphere;
         if ozone_du > 0.0 && ozone_altitude_km > top_altitude_km {
             return Err(SceneError::OzoneAboveTop { ozone_altitude_km, top_altitude_km });
+        }
+        let (visibility_km, clearest_km) =
+            (self.atmosphere.aerosol_visibility_km, clearest_visibility_km(&self.atmosphere));
+        if self.atmosphere.aerosol_input == AerosolInput::Visibility && visibility_km > clearest_km {
+            return Err(SceneError::VisibilityBeyondAir { visibility_km, clearest_km });
         }
         self.moon().map(|_state| ())
     }

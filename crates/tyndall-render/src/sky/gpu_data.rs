@@ -90,9 +90,9 @@ pub struct Orders {
     pub degree: u32,
     pub brightness: f32,
     pub lowest_mu_sun: f32,
-    pub padding0: u32,
-    pub padding1: u32,
-    pub padding2: u32,
+    pub haze_even: u32,
+    pub haze_thinning: u32,
+    pub padding: u32,
 }
 
 /// Twin of `SkyLight` in `shaders/sky/light.wgsl`; units and meanings there.
@@ -116,7 +116,8 @@ impl Orders {
     #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32 and u32")]
     pub fn new(model: &Model, quality: &OrdersQuality, brightness: f64) -> Self {
         let media = ScatteringMedia::new(model);
-        let nodes = Nodes::new(model.planet_radius_m, model.top_altitude_m, quality);
+        let quality = quality.for_haze_of(model);
+        let nodes = Nodes::new(model, &quality);
         let [air, aerosol, haze] = media.moments;
         let [air_scattering, aerosol_scattering, haze_scattering] = media.scattering_per_m;
         let zenith_count = quality.zeniths.min(ORDERS_ZENITHS_MAX);
@@ -139,9 +140,9 @@ impl Orders {
             degree: quality.degree.min(MAX_DEGREE) as u32,
             brightness: brightness as f32,
             lowest_mu_sun: nodes.lowest_mu_sun() as f32,
-            padding0: 0,
-            padding1: 0,
-            padding2: 0,
+            haze_even: nodes.haze().even as u32,
+            haze_thinning: nodes.haze().thinning as u32,
+            padding: 0,
         }
     }
 }

@@ -49,6 +49,7 @@ pub(super) struct Wanted {
 impl Wanted {
     /// From an atmosphere.
     pub(super) fn new(model: &Model, quality: OrdersQuality) -> Result<Self, ScatteringError> {
+        let quality = quality.for_haze_of(model);
         let Orders { lowest_mu_sun, .. } = Orders::new(model, &quality, 1.0);
         Ok(Self { atmosphere: Atmosphere::new(model, 1.0)?, quality, lowest_mu_sun })
     }

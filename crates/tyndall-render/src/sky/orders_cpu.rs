@@ -206,6 +206,7 @@ mod tests {
     /// Small enough for a test, with every part that a table has.
     const QUALITY: OrdersQuality = OrdersQuality {
         altitudes: 4,
+        haze_altitudes: 0,
         suns_above: 4,
         suns_below: 3,
         zeniths: 2,

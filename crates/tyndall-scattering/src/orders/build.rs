@@ -31,13 +31,14 @@ const LARGEST_RATIO: f32 = 0.95;
 pub(crate) struct OrderLoop<'a> {
     marcher: &'a Marcher,
     pub(crate) media: ScatteringMedia,
-    quality: &'a OrdersQuality,
+    quality: OrdersQuality,
     nodes: Nodes,
 }
 
 impl<'a> OrderLoop<'a> {
-    pub(crate) fn new(marcher: &'a Marcher, quality: &'a OrdersQuality) -> Self {
-        let nodes = Nodes::new(marcher.atmosphere.planet_radius_m, marcher.atmosphere.top_altitude_m, quality);
+    pub(crate) fn new(marcher: &'a Marcher, quality: &OrdersQuality) -> Self {
+        let quality = quality.for_haze_of(&marcher.atmosphere);
+        let nodes = Nodes::new(&marcher.atmosphere, &quality);
         Self { marcher, media: ScatteringMedia::new(&marcher.atmosphere), quality, nodes }
     }
 

@@ -4,7 +4,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::OrdersQuality;
+use crate::Atmosphere;
 use crate::geometry::horizon_mu;
+use crate::layer_column::HazeLayer;
 
 /// Powers of e by which twilight falls from the horizon to the lowest sun of the table; on Earth a factor e in 1.1
 /// degrees. Between suns below the horizon a value is linear in exp([`TWILIGHT_FALL`] `mu_sun` / lowest), hence exact
@@ -26,12 +28,65 @@ pub struct Place {
     pub fraction: f64,
 }
 
+/// Altitudes in haze: in the even layer dense at both of its ends, then dense at its top.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HazeNodes {
+    /// Intervals in the even layer.
+    pub even: usize,
+    /// Intervals where the haze thins out.
+    pub thinning: usize,
+    /// Top of the even layer (m).
+    pub top_m: f64,
+    /// Where these nodes end and the others begin (m); 0 without haze.
+    pub end_m: f64,
+}
+
+impl HazeNodes {
+    fn new(layer: Option<&HazeLayer>, count: usize) -> Self {
+        match layer {
+            Some(layer) if count >= 2 => {
+                let even = if layer.top_m > 0.0 { count / 2 } else { 0 };
+                Self { even, thinning: count - even, top_m: layer.top_m, end_m: layer.zone_m }
+            }
+            _ => Self { even: 0, thinning: 0, top_m: 0.0, end_m: 0.0 },
+        }
+    }
+
+    /// Nodes below the end.
+    fn count(&self) -> usize {
+        self.even + self.thinning
+    }
+
+    fn altitude_m(&self, index: usize) -> f64 {
+        if let Some(above) = index.checked_sub(self.even) {
+            let share = above as f64 / self.thinning as f64;
+            return self.top_m + (self.end_m - self.top_m) * share * share;
+        }
+        let share = index as f64 / self.even as f64;
+        let from_end = share.min(1.0 - share);
+        let part = 2.0 * from_end * from_end;
+        self.top_m * if share < 0.5 { part } else { 1.0 - part }
+    }
+
+    /// The node at or below an altitude under the end.
+    fn index_below(&self, altitude_m: f64) -> usize {
+        if altitude_m >= self.top_m {
+            let share = ((altitude_m - self.top_m) / (self.end_m - self.top_m)).sqrt();
+            return self.even + place(share * self.thinning as f64, self.thinning + 1).index;
+        }
+        let part = altitude_m / self.top_m;
+        let share = if part < 0.5 { (0.5 * part).sqrt() } else { 1.0 - (0.5 * (1.0 - part)).sqrt() };
+        place(share * self.even as f64, self.even + 1).index
+    }
+}
+
 /// The nodes of a source table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nodes {
     top_altitude_m: f64,
     lowest_mu_sun: f64,
     altitudes: usize,
+    haze: HazeNodes,
     suns_above: usize,
     suns_below: usize,
 }
@@ -40,18 +95,26 @@ impl Nodes {
     /// Nodes up to the top of the atmosphere, and down to the sun at which the last sunlit air is out of sight: twice the
     /// dip of the horizon at the top, on Earth 20 degrees.
     #[must_use]
-    pub fn new(planet_radius_m: f64, top_altitude_m: f64, quality: &OrdersQuality) -> Self {
+    pub fn new(atmosphere: &Atmosphere, quality: &OrdersQuality) -> Self {
+        let Atmosphere { planet_radius_m, top_altitude_m, .. } = *atmosphere;
         let OrdersQuality { altitudes, suns_above, suns_below, .. } = *quality;
+        let haze = HazeNodes::new(atmosphere.haze_layer().as_ref(), quality.haze_altitudes);
         let sine = -horizon_mu(planet_radius_m, top_altitude_m);
         let lowest_mu_sun = -(2.0 * sine.asin()).min(FRAC_PI_2).sin();
         let lowest_mu_sun = lowest_mu_sun.max(LOWEST_MU_SUN_OF_ALL);
-        Self { top_altitude_m, lowest_mu_sun, altitudes, suns_above, suns_below }
+        Self { top_altitude_m, lowest_mu_sun, altitudes, haze, suns_above, suns_below }
     }
 
     /// Zenith cosine of the lowest sun.
     #[must_use]
     pub fn lowest_mu_sun(&self) -> f64 {
         self.lowest_mu_sun
+    }
+
+    /// The nodes in haze.
+    #[must_use]
+    pub fn haze(&self) -> HazeNodes {
+        self.haze
     }
 
     /// Altitudes.
@@ -69,8 +132,10 @@ impl Nodes {
     /// Altitude (m) of a node.
     #[must_use]
     pub fn altitude_m(&self, index: usize) -> f64 {
-        let share = index as f64 / (self.altitudes - 1) as f64;
-        self.top_altitude_m * share * share
+        let HazeNodes { end_m, .. } = self.haze;
+        let Some(above) = index.checked_sub(self.haze.count()) else { return self.haze.altitude_m(index) };
+        let share = above as f64 / (self.altitudes - self.haze.count() - 1) as f64;
+        end_m + (self.top_altitude_m - end_m) * share * share
     }
 
     /// Zenith cosine of the sun of a node.
@@ -86,8 +151,16 @@ impl Nodes {
     /// Place of an altitude (m).
     #[must_use]
     pub fn altitude_place(&self, altitude_m: f64) -> Place {
-        let share = (altitude_m / self.top_altitude_m).clamp(0.0, 1.0).sqrt();
-        place(share * (self.altitudes - 1) as f64, self.altitudes)
+        let HazeNodes { end_m, .. } = self.haze;
+        if altitude_m < end_m {
+            let index = self.haze.index_below(altitude_m.max(0.0));
+            let [low_m, high_m] = [index, index + 1].map(|index| self.altitude_m(index));
+            return Place { index, fraction: ((altitude_m - low_m) / (high_m - low_m)).clamp(0.0, 1.0) };
+        }
+        let share = ((altitude_m - end_m) / (self.top_altitude_m - end_m)).clamp(0.0, 1.0).sqrt();
+        let count = self.altitudes - self.haze.count();
+        let Place { index, fraction } = place(share * (count - 1) as f64, count);
+        Place { index: index + self.haze.count(), fraction }
     }
 
     /// Place of a sun's zenith cosine.
@@ -118,9 +191,21 @@ fn place(position: f64, count: usize) -> Place {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::haze::HazeParams;
+    use crate::params::{AtmosphereParams, GroundParams};
+
+    fn atmosphere(top_altitude_km: f64) -> Atmosphere {
+        Atmosphere::new(&AtmosphereParams { top_altitude_km, ..AtmosphereParams::default() }, &GroundParams::default())
+    }
+
+    fn hazy_nodes(top_m: f64) -> Nodes {
+        let haze = HazeParams { enabled: true, top_m, ..HazeParams::default() };
+        let atmosphere = atmosphere(80.0).with_haze(&haze);
+        Nodes::new(&atmosphere, &OrdersQuality::preview().for_haze_of(&atmosphere))
+    }
 
     fn nodes() -> Nodes {
-        Nodes::new(6.36e6, 80e3, &OrdersQuality::preview())
+        Nodes::new(&atmosphere(80.0), &OrdersQuality::preview())
     }
 
     #[test]
@@ -134,6 +219,23 @@ mod tests {
             let Place { index, fraction } = nodes.sun_place(nodes.mu_sun(j));
             assert!((index as f64 + fraction - j as f64).abs() < 1e-9, "sun {j}: {index} {fraction}");
         }
+    }
+
+    #[test]
+    fn nodes_in_haze_ascend_and_are_their_own_places() {
+        for nodes in [hazy_nodes(0.0), hazy_nodes(150.0)] {
+            for i in 0..nodes.altitude_count() {
+                let altitude_m = nodes.altitude_m(i);
+                assert!(i == 0 || altitude_m > nodes.altitude_m(i - 1), "node {i}: {altitude_m}");
+                let Place { index, fraction } = nodes.altitude_place(altitude_m);
+                assert!((index as f64 + fraction - i as f64).abs() < 1e-6, "node {i}: {index} {fraction}");
+            }
+        }
+        // Between the nodes in haze a value is linear in the altitude.
+        let nodes = hazy_nodes(150.0);
+        let Place { index, fraction } = nodes.altitude_place(70.0);
+        let [low_m, high_m] = [index, index + 1].map(|i| nodes.altitude_m(i));
+        assert!((low_m + fraction * (high_m - low_m) - 70.0).abs() < 1e-9, "{low_m} {high_m} {fraction}");
     }
 
     #[test]
@@ -156,7 +258,7 @@ mod tests {
 
     #[test]
     fn the_table_of_the_earth_ends_twenty_degrees_below_the_horizon() {
-        let nodes = Nodes::new(6.36e6, 100e3, &OrdersQuality::preview());
+        let nodes = Nodes::new(&atmosphere(100.0), &OrdersQuality::preview());
         assert!((nodes.lowest_mu_sun().asin().to_degrees() + 20.2).abs() < 0.1, "{}", nodes.lowest_mu_sun());
     }
 

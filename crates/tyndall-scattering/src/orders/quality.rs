@@ -1,6 +1,11 @@
 //! How finely the orders of scattering are computed.
 
 use super::basis::MAX_DEGREE;
+use crate::Atmosphere;
+
+/// Orders that haze adds for each unit of its vertical optical depth, and at most.
+const ORDERS_PER_DEPTH: f64 = 1.0;
+const MOST_ORDERS_OF_HAZE: f64 = 24.0;
 
 /// Sizes of the source table and of the quadratures that fill it. Time grows with the product of altitudes, suns,
 /// directions, steps and orders.
@@ -8,6 +13,8 @@ use super::basis::MAX_DEGREE;
 pub struct OrdersQuality {
     /// Altitudes of the table, from the ground to the top, quadratically dense at the ground; at least 3.
     pub altitudes: usize,
+    /// How many of these altitudes lie in haze; 0 without haze.
+    pub haze_altitudes: usize,
     /// Suns above the horizon, the horizon itself and the zenith among them, dense at the horizon; at least 3.
     pub suns_above: usize,
     /// Suns below the horizon, evenly spaced in the cosine; at least 2.
@@ -30,6 +37,7 @@ impl OrdersQuality {
     pub const fn best() -> Self {
         Self {
             altitudes: 24,
+            haze_altitudes: 0,
             suns_above: 24,
             suns_below: 28,
             zeniths: 8,
@@ -45,6 +53,7 @@ impl OrdersQuality {
     pub const fn preview() -> Self {
         Self {
             altitudes: 16,
+            haze_altitudes: 0,
             suns_above: 14,
             suns_below: 20,
             zeniths: 6,
@@ -53,6 +62,18 @@ impl OrdersQuality {
             orders: 4,
             degree: MAX_DEGREE,
         }
+    }
+
+    /// The same for an atmosphere that may be hazy: with altitudes in the haze, and more orders the thicker it is, for there
+    /// light is scattered many times before it finds its way out.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "a few dozen")]
+    pub fn for_haze_of(self, atmosphere: &Atmosphere) -> Self {
+        let Some(layer) = atmosphere.haze_layer().filter(|_| self.haze_altitudes == 0) else { return self };
+        let haze_altitudes = self.altitudes * 2 / 3;
+        let depth = layer.strongest_per_m * (layer.top_m + layer.scale_height_m);
+        let more = (ORDERS_PER_DEPTH * depth).ceil().min(MOST_ORDERS_OF_HAZE) as usize;
+        Self { altitudes: self.altitudes + haze_altitudes, haze_altitudes, orders: self.orders + more, ..self }
     }
 
     /// Suns of the table.

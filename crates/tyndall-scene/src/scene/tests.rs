@@ -130,3 +130,14 @@ fn the_thickest_haze_ends_below_the_lowest_top_of_an_atmosphere() {
     // The light transport ends every medium there.
     assert!(left < 0.01, "{left}");
 }
+
+#[test]
+fn a_visibility_beyond_that_of_pure_air_is_refused() {
+    let mut scene = Scene::default();
+    scene.atmosphere.aerosol_visibility_km = 300.0;
+    scene.atmosphere.air_density = 2.0;
+    assert!(scene.check().is_ok(), "another number says how much aerosol there is");
+    scene.atmosphere.aerosol_input = AerosolInput::Visibility;
+    let message = scene.check().unwrap_err().to_string();
+    assert!(message.contains("aerosol_visibility_km` = 300 km") && message.contains("161 km"), "{message}");
+}
