@@ -8,6 +8,7 @@ pub(crate) mod format;
 pub(crate) mod frame;
 pub(crate) mod header;
 pub(crate) mod memory;
+mod reference;
 pub(crate) mod source;
 pub(crate) mod write;
 
@@ -34,6 +35,7 @@ Examples:
   tyndall render dusk.toml -o dusk.exr --size 3840x2160 --float
   tyndall render dusk.toml -o d.png --set sun.elevation_deg=2 --set film.tone_map=aces
   tyndall render dusk.toml -o d.exr --adapter software --max-memory 4G
+  tyndall render dusk.toml -o truth.png --reference --paths 256 --size 320x180
 
 Units are in the names of the parameters (altitude_m, elevation_deg);
 `tyndall params` lists them all. EXR holds the light of the scene, linear
@@ -61,6 +63,16 @@ pub struct RenderArguments {
     /// Most memory for the picture, such as 8G; by default what the system has to spare
     #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
     pub max_memory: Option<u64>,
+    /// Compute sky and ground by Monte-Carlo on the CPU, without tables and GPU: slow, for comparison
+    #[arg(long)]
+    pub reference: bool,
+    /// Random walks a pixel of a reference picture; four times as many halve the noise
+    #[arg(long, value_name = "N", default_value_t = 64, requires = "reference",
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub paths: u32,
+    /// Seed of the walks; the same seed gives the same bits
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "reference")]
+    pub seed: u64,
     /// Whether tables are kept between runs.
     #[command(flatten)]
     pub cache: CacheArguments,
@@ -90,10 +102,13 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
     let scene = scene_of(arguments)?;
     check_writable(&arguments.output)?;
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
-    let options = GpuOptions { adapter: arguments.adapter.clone(), max_memory_bytes: arguments.max_memory };
-    let cache = arguments.cache;
-    let job = Job { scene: &scene, format, options: &options, cache, interrupt: &interrupt, progress };
-    let frame = job.run()?;
+    let frame = if arguments.reference {
+        reference::frame(&scene, format, (arguments.paths, arguments.seed), &interrupt, progress)?
+    } else {
+        let options = GpuOptions { adapter: arguments.adapter.clone(), max_memory_bytes: arguments.max_memory };
+        let cache = arguments.cache;
+        Job { scene: &scene, format, options: &options, cache, interrupt: &interrupt, progress }.run()?
+    };
 
     progress.stage(Stage::File)?;
     interrupt.check()?;

@@ -14,6 +14,7 @@
 
 mod layers;
 mod path;
+mod picture;
 mod random;
 mod scatter;
 mod segment;
@@ -29,6 +30,8 @@ use rayon::prelude::*;
 use crate::Atmosphere;
 use crate::geometry::{Ray, enter_atmosphere};
 use crate::single_scattering::{RayEnd, ray_end, single_scattering_to};
+
+pub use picture::PictureWalks;
 
 use layers::Layers;
 use path::{Place, Walker};

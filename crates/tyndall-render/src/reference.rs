@@ -1,0 +1,134 @@
+//! A scene's sky and ground by Monte-Carlo, pixel by pixel on the CPU: what the tables' picture should look like.
+
+use glam::{DVec2, UVec2};
+use tyndall_core::spectrum::rec709_from_spectrum;
+use tyndall_scattering::geometry::{Ray, distance_to_ground};
+use tyndall_scattering::monte_carlo::PictureWalks;
+use tyndall_scattering::params::GroundPattern;
+use tyndall_scene::camera::CameraFrame;
+use tyndall_scene::{LandscapeKind, MoonPosition, Scene};
+
+use crate::{RenderError, SKY_DEPTH_M};
+
+/// Elevation of the sun (rad) below which stars are seen.
+const STARS_BELOW: f64 = -0.07;
+
+/// A picture in linear Rec.709 (cd/m^2), row 0 on top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferencePicture {
+    /// Width and height (px).
+    pub size_px: [u32; 2],
+    /// Radiance; alpha is 1.
+    pub rgba: Vec<[f32; 4]>,
+    /// Planar distance (m); [`SKY_DEPTH_M`] where the sky is.
+    pub depth_m: Vec<f32>,
+}
+
+/// What a scene has that a reference picture leaves out, for people.
+#[must_use]
+pub fn left_out(scene: &Scene) -> Vec<&'static str> {
+    // By day nobody misses the stars.
+    let dark = scene.sun_direction().is_ok_and(|sun| sun.elevation_rad < STARS_BELOW);
+    let parts = [
+        ("the sun's disc", scene.sun.disc),
+        ("the moon and its light", scene.moon.position != MoonPosition::None),
+        ("stars and airglow", scene.stars.visible && dark),
+        ("the landscape", scene.landscape.kind != LandscapeKind::None),
+        ("the ground's pattern", scene.ground.pattern != GroundPattern::Plain),
+    ];
+    parts.into_iter().filter_map(|(name, present)| present.then_some(name)).collect()
+}
+
+/// Renders with `paths` random walks a pixel, through the pixel's centre. `progress` is told the share that is done and
+/// says whether to go on; `None` when it said no.
+///
+/// # Errors
+/// When the scene's values do not fit together.
+pub fn render_reference(
+    scene: &Scene,
+    (paths, seed): (u32, u64),
+    progress: &mut dyn FnMut(f64) -> bool,
+) -> Result<Option<ReferencePicture>, RenderError> {
+    scene.check()?;
+    let scene = scene.grounded();
+    let mut atmosphere = scene.model();
+    for solar in &mut atmosphere.solar_irradiance_w_m2_nm {
+        *solar *= scene.sun.brightness;
+    }
+    let (radius_m, h_m) = (atmosphere.planet_radius_m, scene.camera.altitude_m);
+    let walks = PictureWalks::new(&atmosphere)?;
+    let (camera, sun) = (CameraFrame::new(&scene.camera), scene.sun_direction()?.unit());
+    let size_px = [scene.image.width_px, scene.image.height_px];
+    let pixels = size_px[0] as usize * size_px[1] as usize;
+    let (mut rgba, mut depth_m) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
+    for y in 0..size_px[1] {
+        if !progress(f64::from(y) / f64::from(size_px[1])) {
+            return Ok(None);
+        }
+        let directions = (0..size_px[0])
+            .map(|x| camera.ray(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5), UVec2::from_array(size_px)));
+        let mut rays = Vec::with_capacity(size_px[0] as usize);
+        for direction in directions {
+            rays.push(Ray { h_m, mu: direction.z, mu_sun: sun.z, nu: direction.dot(sun).clamp(-1.0, 1.0) });
+            let ground_m = distance_to_ground(radius_m, h_m, direction.z);
+            depth_m.push(ground_m.map_or(SKY_DEPTH_M, |t_m| planar_m(t_m * direction.dot(camera.forward))));
+        }
+        for spectrum in walks.radiance(&rays, y * size_px[0], (paths, seed)) {
+            rgba.push(opaque(rec709_from_spectrum(&spectrum)));
+        }
+    }
+    Ok(Some(ReferencePicture { size_px, rgba, depth_m }))
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "pictures are f32")]
+fn planar_m(distance_m: f64) -> f32 {
+    distance_m as f32
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "pictures are f32")]
+fn opaque([r, g, b]: [f64; 3]) -> [f32; 4] {
+    [r as f32, g as f32, b as f32, 1.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn small() -> Scene {
+        let mut scene = Scene::default();
+        (scene.image.width_px, scene.image.height_px) = (8, 6);
+        scene
+    }
+
+    #[test]
+    fn a_reference_picture_has_sky_above_ground_and_the_same_bits_for_one_seed() {
+        let render =
+            |seed: u64| render_reference(&small(), (4, seed), &mut |_| true).expect("a scene").expect("all of it");
+        let picture = render(1);
+        assert_eq!((picture.rgba.len(), picture.depth_m.len()), (48, 48), "eight by six");
+        assert!(picture.rgba.iter().flatten().all(|value| value.is_finite() && *value > -1e3), "{:?}", picture.rgba);
+        assert_eq!(picture, render(1), "the same seed");
+        assert_ne!(picture.rgba, render(2).rgba, "another seed");
+    }
+
+    #[test]
+    fn a_refusal_stops_a_reference_picture() {
+        let mut rows = 0;
+        let mut twice = |_done: f64| {
+            rows += 1;
+            rows < 3
+        };
+        assert_eq!(render_reference(&small(), (1, 1), &mut twice).expect("a scene"), None, "stopped in the third row");
+    }
+
+    #[test]
+    fn what_is_left_out_is_said() {
+        let mut scene = small();
+        (scene.sun.disc, scene.landscape.kind) = (false, LandscapeKind::None);
+        scene.ground.pattern = GroundPattern::Plain;
+        assert!(left_out(&scene).is_empty(), "{:?}", left_out(&scene));
+        scene.sun.disc = true;
+        scene.ground.pattern = GroundPattern::Checker;
+        assert_eq!(left_out(&scene), ["the sun's disc", "the ground's pattern"], "both");
+    }
+}
