@@ -74,7 +74,7 @@ fn figures(ui: &mut Ui, answer: &Answer) {
         ui.label(format!("{:.0} ms", answer.ms));
         ui.end_row();
     });
-    ui.weak("Without the sun's disc.");
+    ui.weak("Sunlight in the air; no discs, no landscape.");
 }
 
 fn spectrum(ui: &mut Ui, sample: Option<&Sample>) {
@@ -127,7 +127,7 @@ fn meridian(ui: &mut Ui, answer: &Answer) {
 }
 
 /// A plot that shows and does not move.
-fn quiet(plot: Plot<'_>) -> Plot<'_> {
+pub(super) fn quiet(plot: Plot<'_>) -> Plot<'_> {
     plot.allow_drag(false).allow_zoom(false).allow_scroll(false).allow_boxed_zoom(false)
 }
 
@@ -155,7 +155,7 @@ fn decades((low, high): (f64, f64)) -> Vec<GridMark> {
 }
 
 /// Two to five lines at round numbers.
-fn few((low, high): (f64, f64)) -> Vec<GridMark> {
+pub(super) fn few((low, high): (f64, f64)) -> Vec<GridMark> {
     let span = high - low;
     if !(span.is_finite() && span > 0.0) {
         return Vec::new();
@@ -168,11 +168,11 @@ fn few((low, high): (f64, f64)) -> Vec<GridMark> {
 }
 
 /// A number as people read it: 4,300 or 0.0021, three digits that count.
-fn short(value: f64) -> String {
-    if value >= 1e5 || (value > 0.0 && value < 1e-3) {
+pub(super) fn short(value: f64) -> String {
+    if value.abs() >= 1e5 || (value != 0.0 && value.abs() < 1e-3) {
         return format!("{value:.0e}");
     }
-    let digits = (2.0 - value.max(1e-3).log10().floor()).clamp(0.0, 5.0);
+    let digits = (2.0 - value.abs().max(1e-3).log10().floor()).clamp(0.0, 5.0);
     #[expect(clippy::cast_possible_truncation, reason = "0 to 5")]
     let text = format!("{value:.*}", digits as usize);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
@@ -197,6 +197,7 @@ mod tests {
             assert_eq!(short(value), text, "{value}");
         }
         assert_eq!(short(0.0), "0", "no light");
+        assert_eq!(short(-2.5), "-2.5", "too dark");
         assert_eq!(short(1.6e9), "2e9", "the sun");
     }
 

@@ -71,11 +71,7 @@ impl TimePanel {
 
     fn controls(&mut self, ui: &mut Ui, scene: &mut Scene) {
         let sun = &mut scene.sun;
-        if sun.position == SunPosition::Angles {
-            ui.add(Label::new(
-                RichText::new("The angles place the sun; anything here lets date and place do it.").weak(),
-            ));
-        }
+        ui.add_space(6.0);
         line(ui, "Place", |ui| self.places(ui, sun));
         line(ui, "Date", |ui| dates(ui, sun));
         line(ui, "Clock", |ui| self.clocks(ui, sun));
@@ -189,18 +185,18 @@ fn lights(ui: &mut Ui, sun: &mut SunParams, day: Option<&Day>) {
         return;
     };
     let mut wanted_h = None;
-    Grid::new("lights").num_columns(4).spacing([10.0, 3.0]).show(ui, |ui| {
+    Grid::new("lights").num_columns(4).min_col_width(0.0).spacing([8.0, 3.0]).show(ui, |ui| {
         for level in Level::ALL {
             dial::swatch(ui, level);
             let [rise, set] = level.names();
-            ui.label(rise.trim_end_matches(" dawn"));
+            ui.label(if level == Level::Sun { "Sun" } else { rise.trim_end_matches(" dawn") });
             match day.stays(level) {
                 None => {
                     for (name, time_h) in [rise, set].into_iter().zip(day.crossings_h(level)) {
                         wanted_h = wanted_h.or(time(ui, name, time_h));
                     }
                 }
-                Some(true) => drop(ui.weak("all day")),
+                Some(true) => drop(ui.weak(if level == Level::Sun { "up all day" } else { "all night" })),
                 Some(false) => drop(ui.weak("not today")),
             }
             ui.end_row();
@@ -208,7 +204,7 @@ fn lights(ui: &mut Ui, sun: &mut SunParams, day: Option<&Day>) {
         ui.label("");
         ui.label("Noon");
         wanted_h = wanted_h.or(time(ui, "Noon", Some(day.noon.0)));
-        ui.weak(format!("{:.1}° high", day.noon.1));
+        ui.weak(format!("{:.1}°", day.noon.1)).on_hover_text("Height of the sun at noon");
         ui.end_row();
     });
     if let Some(time_h) = wanted_h {

@@ -5,6 +5,7 @@ use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points};
 use tyndall_scattering::validate::{Band, Statistics};
 use tyndall_scene::{Orders, Scene};
 
+use super::plots::{few, quiet, short};
 use crate::error_meter::{ErrorMeter, Outcome, Subject, Thoroughness};
 
 /// Width of the table; the plot takes the rest.
@@ -24,7 +25,7 @@ pub(crate) fn show(ui: &mut Ui, meter: &mut ErrorMeter, thoroughness: &mut Thoro
     ui.horizontal_top(|ui| {
         ui.vertical(|ui| {
             ui.set_width(TABLE_PT.min(ui.available_width()));
-            ScrollArea::both().id_salt("errors").auto_shrink(false).show(ui, |ui| table(ui, outcome, scene));
+            ScrollArea::both().id_salt("table of errors").auto_shrink(false).show(ui, |ui| table(ui, outcome, scene));
         });
         if ui.available_width() > 120.0 {
             ui.vertical(|ui| {
@@ -110,11 +111,10 @@ fn plot(ui: &mut Ui, outcome: &Outcome) {
         let elevation_deg = |view_zenith: f64| 90.0 - view_zenith.to_degrees();
         rows.map(|row| [elevation_deg(row.direction.view_zenith), row.luminance.error_pct()]).collect()
     };
-    Plot::new("errors")
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
+    quiet(Plot::new("error of each direction"))
+        .x_grid_spacer(|input| few(input.bounds))
+        .y_grid_spacer(|input| few(input.bounds))
+        .y_axis_formatter(|mark, _| short(mark.value))
         .include_y(-1.0)
         .include_y(1.0)
         .x_axis_formatter(|mark, _| format!("{:.0}°", mark.value))
