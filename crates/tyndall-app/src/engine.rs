@@ -11,6 +11,7 @@ use std::{
 
 use egui_wgpu::RenderState;
 use tyndall_gpu::{Gpu, GpuError, PassTiming};
+use tyndall_io::TableFolder;
 use tyndall_render::{
     FrameTarget, RenderError, Renderer, RendererConfig,
     sky::{TableBuilding, TableProgress, Wake},
@@ -88,6 +89,7 @@ impl Engine {
         let started = Instant::now();
         let gpu = Gpu::from_parts(&state.adapter, state.device.clone(), state.queue.clone(), None);
         let mut renderer = Renderer::new(&gpu, RendererConfig::default())?;
+        renderer.set_table_store(TableFolder::of_user().map(|folder| Arc::new(folder) as _));
         gpu.check()?;
         let news = Arc::new(AtomicBool::new(false));
         let (sender, ctx) = (Arc::clone(&news), ctx.clone());
