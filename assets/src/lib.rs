@@ -14,6 +14,14 @@ pub const SCENES: &[(&str, &str)] = &[
     ("atmosphere-blender", include_str!("../scenes/atmosphere-blender.toml")),
     ("atmosphere-unreal", include_str!("../scenes/atmosphere-unreal.toml")),
     ("atmosphere-bruneton", include_str!("../scenes/atmosphere-bruneton.toml")),
+    ("red-sunset", include_str!("../scenes/red-sunset.toml")),
+    ("civil-twilight", include_str!("../scenes/civil-twilight.toml")),
+    ("nautical-twilight", include_str!("../scenes/nautical-twilight.toml")),
+    ("moonlight", include_str!("../scenes/moonlight.toml")),
+    ("stars", include_str!("../scenes/stars.toml")),
+    ("balloon", include_str!("../scenes/balloon.toml")),
+    ("orbit-terminator", include_str!("../scenes/orbit-terminator.toml")),
+    ("far-planet", include_str!("../scenes/far-planet.toml")),
 ];
 
 /// The stars of the Bright Star Catalogue as comma-separated values; `assets/stars/README.md` says what and whence.

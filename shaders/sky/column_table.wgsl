@@ -9,23 +9,23 @@
 const COLUMN_PANELS: u32 = 24u;
 const COLUMN_PANELS_MIN: u32 = 4u;
 
-/// Densities at distance t along a ray, those of air and aerosol relative to the ones at the observer. The exponent ends
-/// where f32 does; so thin a medium contributes nothing.
-fn column_density(h: f32, mu: f32, t: f32) -> vec3<f32> {
+/// Densities at distance t along a ray, those of air and aerosol relative to the ones at its lowest altitude: seen from space,
+/// those at the observer are too small for f32.
+fn column_density(h: f32, mu: f32, t: f32, lowest_m: f32) -> vec3<f32> {
     let h_t = altitude_along(atmosphere.planet_radius_m, h, mu, t);
     let scale_heights = vec2<f32>(atmosphere.air_scale_height_m, atmosphere.aerosol_scale_height_m);
-    return vec3<f32>(exp(min((h - h_t) / scale_heights, vec2<f32>(80.0))), atmosphere_density(h_t).z);
+    return vec3<f32>(exp((lowest_m - h_t) / scale_heights), atmosphere_density(h_t).z);
 }
 
 /// Columns from distance `from_m` over a signed `span_m`, between the squared shares x0 and x1 of the span.
-fn column_piece(h: f32, mu: f32, from_m: f32, span_m: f32, x0: f32, x1: f32) -> vec3<f32> {
+fn column_piece(h: f32, mu: f32, from_m: f32, span_m: f32, x0: f32, x1: f32, lowest_m: f32) -> vec3<f32> {
     let panels = clamp(u32(ceil((x1 - x0) * f32(COLUMN_PANELS))), COLUMN_PANELS_MIN, COLUMN_PANELS);
     let width = (x1 - x0) / f32(panels);
     var sum = vec3<f32>(0.0);
     for (var panel = 0u; panel < panels; panel++) { // loops: COLUMN_PANELS
         for (var node = 0u; node < 4u; node++) { // loops: 4
             let x = x0 + (f32(panel) + QUADRATURE_NODES[node]) * width;
-            sum += column_density(h, mu, from_m + span_m * x * x) * (QUADRATURE_WEIGHTS[node] * 2.0 * x * width);
+            sum += column_density(h, mu, from_m + span_m * x * x, lowest_m) * (QUADRATURE_WEIGHTS[node] * 2.0 * x * width);
         }
     }
     return sum * abs(span_m);
@@ -33,7 +33,7 @@ fn column_piece(h: f32, mu: f32, from_m: f32, span_m: f32, x0: f32, x1: f32) -> 
 
 /// Columns from distance `from_m` over a signed `span_m`, nodes quadratically dense at `from_m`. No panel crosses a corner
 /// of the ozone's tent.
-fn column_side(h: f32, mu: f32, from_m: f32, span_m: f32) -> vec3<f32> {
+fn column_side(h: f32, mu: f32, from_m: f32, span_m: f32, lowest_m: f32) -> vec3<f32> {
     var sum = vec3<f32>(0.0);
     var x = 0.0;
     for (var corner = 0u; corner < 4u; corner++) { // loops: 4
@@ -46,7 +46,7 @@ fn column_side(h: f32, mu: f32, from_m: f32, span_m: f32) -> vec3<f32> {
             to = select(x, clamp(sqrt(max(share, 0.0)), x, 1.0), crossings.y > SPHERE_NEVER);
         }
         if (to > x) {
-            sum += column_piece(h, mu, from_m, span_m, x, to);
+            sum += column_piece(h, mu, from_m, span_m, x, to, lowest_m);
             x = to;
         }
     }
@@ -60,8 +60,10 @@ fn column_table(@builtin(global_invocation_id) id: vec3<u32>) {
     let radius = atmosphere.planet_radius_m;
     let length = distance_to_top(radius, atmosphere.top_altitude_m, place.x, place.y);
     let lowest = clamp(-(radius + place.x) * place.y, 0.0, length);
-    let columns = column_side(place.x, place.y, lowest, -lowest) + column_side(place.x, place.y, lowest, length - lowest);
+    let lowest_m = altitude_along(radius, place.x, place.y, lowest);
+    let columns = column_side(place.x, place.y, lowest, -lowest, lowest_m) + column_side(place.x, place.y, lowest, length - lowest, lowest_m);
     // The floor of 1e-6 m is what a texel at the very top holds.
-    let relative = log(max(columns.xy, vec2<f32>(1e-6)));
+    let scale_heights = vec2<f32>(atmosphere.air_scale_height_m, atmosphere.aerosol_scale_height_m);
+    let relative = log(max(columns.xy, vec2<f32>(1e-6))) + (place.x - lowest_m) / scale_heights;
     textureStore(column_texels, id.xy, vec4<f32>(relative, columns.z, 0.0));
 }

@@ -35,6 +35,13 @@ fn ground_view_columns(mu: f32, t: f32) -> vec4<f32> {
     return max(whole - columns_to_top(h, -mu), vec4<f32>(0.0));
 }
 
+/// Share of the ground in the last pixel before the edge of the planet, which would be stairs otherwise: the edge fades
+/// over one pixel below the horizon, to the sky just above it.
+fn ground_coverage(plane: vec2<f32>, elevation: f32) -> f32 {
+    let pixel = frame_pixel_extent(plane);
+    return clamp((sky_view.horizon_elevation - elevation) / max(pixel.x, pixel.y), 0.0, 1.0);
+}
+
 @vertex
 fn ground_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
     return frame_triangle(index);
@@ -61,7 +68,13 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     light = spectrum_add(light, ground_airglow_irradiance());
     let reflected = spectrum_scale(spectrum_mul(atmosphere.ground_albedo, light), ground_pattern(frame.position_m.xy + t * direction.xy, footprint_m) / SKY_PI);
     let transmittance = atmosphere_transmittance(ground_view_columns(direction.z, t));
-    let veil = sky_view_radiance(sky_view_angles(direction), nu) + ground_night_veil(direction, transmittance);
-    let radiance = atmosphere_rec709(spectrum_mul(reflected, transmittance)) + veil;
+    let angles = sky_view_angles(direction);
+    let veil = sky_view_radiance(angles, nu) + ground_night_veil(direction, transmittance);
+    var radiance = atmosphere_rec709(spectrum_mul(reflected, transmittance)) + veil;
+    let coverage = ground_coverage(plane, angles.x);
+    if (coverage < 1.0) {
+        let above = sky_view_radiance(vec2<f32>(sky_view.horizon_elevation, angles.y), nu) + ground_night_veil(direction, transmittance);
+        radiance = mix(above, radiance, coverage);
+    }
     return GroundFragment(vec4<f32>(radiance * frame.pre_exposure, 1.0), frame.near_m / frame_depth_m(direction, t));
 }

@@ -23,7 +23,8 @@ fn milky_way_radiance(direction: vec3<f32>) -> vec3<f32> {
         share *= 0.5;
     }
     // The great rift runs along the equator from the centre half way round.
-    let rift = exp(-0.5 * pow((bent - 0.02) / 0.045, 2.0)) * smoothstep(-0.4, 0.5, centre) * smoothstep(0.3, 0.62, clouds);
+    let off_rift = (bent - 0.02) / 0.045;
+    let rift = exp(-0.5 * off_rift * off_rift) * smoothstep(-0.4, 0.5, centre) * smoothstep(0.3, 0.62, clouds);
     let light = (disc + bulge) * (0.45 + 1.1 * clouds) * (1.0 - 0.75 * rift) + 0.03;
     // Old stars in the middle are warmer than the arms.
     let colour = mix(vec3<f32>(0.93, 1.0, 1.19), vec3<f32>(1.12, 0.98, 0.80), clamp(bulge, 0.0, 1.0));

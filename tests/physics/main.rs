@@ -6,6 +6,8 @@ mod dome;
 mod gpu_orders;
 mod gpu_tables;
 mod laws;
+mod moonlight;
+mod night;
 mod panorama;
 mod pictures;
 mod random_walks;

@@ -50,10 +50,21 @@ mod tests {
 
     #[test]
     fn the_presets_sun_stands_where_their_names_say() {
-        let elevations: Vec<_> =
-            presets().iter().map(|preset| (preset.name, preset.load().unwrap().scene.sun.elevation_deg)).collect();
-        let expected = [("noon", 60.0), ("low-sun", 8.0), ("sunset", 1.0), ("twilight", -3.0), ("high-altitude", 35.0)];
-        assert_eq!(elevations[..expected.len()], expected, "names and elevations in degrees");
+        let expected = [
+            ("noon", 60.0),
+            ("low-sun", 8.0),
+            ("sunset", 1.0),
+            ("twilight", -3.0),
+            ("high-altitude", 35.0),
+            ("red-sunset", -0.25),
+            ("civil-twilight", -5.0),
+            ("nautical-twilight", -9.5),
+        ];
+        for (name, elevation_deg) in expected {
+            let preset = presets().into_iter().find(|preset| preset.name == name).expect("a preset of that name");
+            let found = preset.load().unwrap().scene.sun.elevation_deg;
+            assert!((found - elevation_deg).abs() < 1e-9, "{name}: {found} deg");
+        }
     }
 
     #[test]

@@ -81,7 +81,8 @@ fn by_date(date: &SunParams) -> Result<(DVec3, f64, DVec3), SceneError> {
 /// Sunlight from the side where the sun stands, at a phase angle (rad).
 fn at_phase(direction: DVec3, to_sun: DVec3, phase: f64) -> DVec3 {
     let aside = to_sun - direction * to_sun.dot(direction);
-    let aside = aside.try_normalize().unwrap_or_else(|| direction.any_orthonormal_vector());
+    // A sun opposite to the moon, or behind it, is on no side.
+    let aside = if aside.length() < 1e-6 { direction.any_orthonormal_vector() } else { aside.normalize() };
     aside * phase.sin() - direction * phase.cos()
 }
 
@@ -175,11 +176,12 @@ mod tests {
 
     #[test]
     fn a_set_phase_is_the_angle_at_the_moon_and_its_light_comes_from_the_suns_side() {
-        for degrees in [0.0, 40.0, 120.0, 180.0] {
+        for (degrees, elevation_deg) in [(0.0, 30.0), (40.0, 30.0), (120.0, 30.0), (180.0, 30.0), (90.0, -35.0)] {
             let moon = MoonParams {
                 position: MoonPosition::Angles,
                 phase: MoonPhase::Angle,
                 phase_deg: degrees,
+                elevation_deg,
                 ..MoonParams::default()
             };
             let scene = scene(moon);
