@@ -67,10 +67,10 @@ pub struct ValidateSkyArguments {
     #[arg(long)]
     pub json: bool,
     /// Fail with exit code 5 when the median error of spectral radiance is larger (per cent)
-    #[arg(long, value_name = "PERCENT", value_parser = parse_percent)]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = parse_percent)]
     pub limit_median: Option<f64>,
     /// The same for the 95th percentile (per cent)
-    #[arg(long, value_name = "PERCENT", value_parser = parse_percent)]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true, value_parser = parse_percent)]
     pub limit_p95: Option<f64>,
 }
 

@@ -83,10 +83,10 @@ pub struct SkyProbeArguments {
     #[arg(long, value_name = "FILE")]
     pub directions: PathBuf,
     /// Altitude of the observer (km); the ground, or the scene's camera, unless given
-    #[arg(long, value_name = "KM", value_parser = parse_km)]
+    #[arg(long, value_name = "KM", allow_negative_numbers = true, value_parser = parse_km)]
     pub altitude: Option<f64>,
     /// Only the light of this much air (km, from where a ray enters the atmosphere)
-    #[arg(long, value_name = "KM", value_parser = parse_km)]
+    #[arg(long, value_name = "KM", allow_negative_numbers = true, value_parser = parse_km)]
     pub distance: Option<f64>,
     /// Light that was scattered once, by the exact integral
     #[arg(long, conflicts_with = "reference")]
