@@ -23,9 +23,10 @@ fn the_light_under_the_pointer_is_told() {
     click(&mut program, "Plots");
     assert!(program.query_by_label_contains("Point at the view").is_some(), "nothing is pointed at yet");
     point(&mut program, 0.5, 0.1);
-    let high = luminance(&program);
+    let near_sun = luminance(&program);
     point(&mut program, 0.5, 0.4);
-    let low = luminance(&program);
-    assert!(high > 100.0 && low > high, "the sky brightens towards the horizon: {high} and {low} cd/m2");
+    let below = luminance(&program);
+    // The view's upper edge is a few degrees from the sun.
+    assert!(below > 100.0 && near_sun > 1.3 * below, "the sky is brightest at the sun: {near_sun} and {below} cd/m2");
     assert!(program.query_by_label_contains("Direction").is_some(), "where it comes from");
 }
