@@ -73,7 +73,10 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     var radiance = atmosphere_rec709(spectrum_mul(reflected, transmittance)) + veil;
     let coverage = ground_coverage(plane, angles.x);
     if (coverage < 1.0) {
-        let above = sky_view_radiance(vec2<f32>(sky_view.horizon_elevation, angles.y), nu) + ground_night_veil(direction, transmittance);
+        // A hair above the horizon, so that rounding does not take the rows below it.
+        let edge = sky_view.horizon_elevation + 1e-5;
+        let raised = vec3<f32>(direction.xy * (cos(edge) / max(length(direction.xy), 1e-6)), sin(edge));
+        let above = sky_view_radiance(vec2<f32>(edge, angles.y), nu) + ground_night_veil(raised, transmittance);
         radiance = mix(above, radiance, coverage);
     }
     return GroundFragment(vec4<f32>(radiance * frame.pre_exposure, 1.0), frame.near_m / frame_depth_m(direction, t));
