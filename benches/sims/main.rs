@@ -1,5 +1,6 @@
-//! Times the CPU side: exact integrals against tables, and tables on one thread against all.
+//! Times the CPU side: exact integrals against tables, sand automata, and work on one thread against all.
 
+mod dunes;
 mod lookups;
 mod tables;
 
@@ -8,7 +9,7 @@ use clap::Parser;
 use serde_json::json;
 use tyndall_benches::{CommonOptions, JsonLines, Samples, is_smoke, print_line};
 
-/// CPU timings of Tyndall's light transport.
+/// CPU timings of Tyndall's light transport and simulations.
 #[derive(Debug, Parser)]
 #[command(name = "sims")]
 struct Options {
@@ -50,13 +51,16 @@ fn main() -> Result<()> {
     print_line(&format!("{threads} CPU threads; microseconds a call, and how many times faster than the first way"))?;
     print_line(&format!("{:<34} {:<28} {:>12} {:>12} {:>9}", "", "", "median", "p95", "ratio"))?;
 
-    let runs: [(&str, Run); 6] = [
+    let runs: [(&str, Run); 9] = [
         (lookups::COLUMNS, lookups::columns),
         (lookups::DIRECTION, lookups::direction),
         (lookups::IRRADIANCE, lookups::irradiance),
         (tables::COLUMNS, tables::columns),
         (tables::SKY_VIEW, tables::sky_view),
         (tables::IRRADIANCE, tables::irradiance),
+        (dunes::RIPPLES, dunes::ripples),
+        (dunes::DUNES, dunes::dunes),
+        (dunes::GROWN_DUNES, dunes::grown_dunes),
     ];
     let mut found = false;
     for (_, run) in runs.iter().filter(|(name, _)| name.contains(&options.common.filter)) {

@@ -18,7 +18,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tyndall-render", &["tyndall-gpu", "tyndall-scene"]),
     ("tyndall-cli", &["tyndall-render", "tyndall-io"]),
     ("tyndall-app", &["tyndall-render", "tyndall-io"]),
-    ("tyndall", &["tyndall-render", "tyndall-io", "tyndall-clouds"]),
+    ("tyndall", &["tyndall-render", "tyndall-io", "tyndall-clouds", "tyndall-dunes"]),
     ("xtask", &[]),
 ];
 

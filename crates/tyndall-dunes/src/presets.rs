@@ -1,6 +1,7 @@
 //! Deserts to start from.
 
 use crate::DuneError;
+use crate::ripples::{RippleBed, RippleParams};
 use crate::slab::{DuneField, DuneParams, VegetationParams};
 use crate::wind::{WindParams, WindSchedule};
 
@@ -38,6 +39,7 @@ impl DunePreset {
 #[must_use]
 pub fn dune_presets() -> Vec<DunePreset> {
     let sand = |sand_cells: f64| DuneParams { sand_cells, ..DuneParams::default() };
+    let sparse = DuneParams { noise_cells: 0.1, ..sand(0.4) };
     let wind = |winds: u32, divergence_deg: f64, period_steps: u32| WindParams {
         winds,
         divergence_deg,
@@ -45,7 +47,7 @@ pub fn dune_presets() -> Vec<DunePreset> {
         ..WindParams::default()
     };
     let bare = VegetationParams::default();
-    let planted = VegetationParams { enabled: true, cover: 0.004, ..VegetationParams::default() };
+    let planted = VegetationParams { enabled: true, ..VegetationParams::default() };
     let preset = |name, title, dunes, winds, vegetation: &VegetationParams, steps| DunePreset {
         name,
         title,
@@ -57,9 +59,9 @@ pub fn dune_presets() -> Vec<DunePreset> {
     vec![
         preset("transverse", "Long crests across one wind, much sand", sand(3.0), wind(1, 0.0, 100), &bare, 3000),
         preset("barchan", "Crescents on bare ground, little sand", sand(0.7), wind(1, 0.0, 100), &bare, 4000),
-        preset("seif", "Long ridges along two winds", sand(0.8), wind(2, 130.0, 60), &bare, 4000),
-        preset("star", "Peaks with arms under winds from all sides", sand(3.0), wind(3, 120.0, 1200), &bare, 6000),
-        preset("nebkha", "Heaps of sand held by plants", sand(0.6), wind(1, 0.0, 100), &planted, 1500),
+        preset("seif", "Long ridges between two winds", sand(1.6), wind(2, 150.0, 100), &bare, 3000),
+        preset("star", "Peaks with arms under winds from three sides", sand(1.5), wind(3, 120.0, 90), &bare, 4000),
+        preset("nebkha", "Heaps with tails behind clumps of plants", sparse, wind(1, 0.0, 100), &planted, 600),
     ]
 }
 
@@ -67,4 +69,56 @@ pub fn dune_presets() -> Vec<DunePreset> {
 #[must_use]
 pub fn dune_preset(name: &str) -> Option<DunePreset> {
     dune_presets().into_iter().find(|preset| preset.name == name)
+}
+
+/// A bed of ripples to start from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RipplePreset {
+    /// Short name.
+    pub name: &'static str,
+    /// What one sees.
+    pub title: &'static str,
+    /// The bed.
+    pub ripples: RippleParams,
+    /// Steps until the ripples are grown.
+    pub steps: u32,
+}
+
+impl RipplePreset {
+    /// The bed at step 0.
+    ///
+    /// # Errors
+    /// As [`RippleBed::new`]; the preset as it is given raises none.
+    pub fn bed(&self) -> Result<RippleBed, DuneError> {
+        RippleBed::new(&self.ripples)
+    }
+}
+
+/// The tile of ripples that dunes are covered with.
+#[must_use]
+pub fn ripple_preset() -> RipplePreset {
+    RipplePreset {
+        name: "ripple-bed",
+        title: "Wind ripples, seen from where one stands",
+        ripples: RippleParams::default(),
+        steps: 1500,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::SandSimulation as _;
+
+    #[test]
+    fn every_preset_starts_and_steps() {
+        for preset in dune_presets() {
+            let mut field = preset.field().unwrap();
+            field.step();
+            assert_eq!(field.mass_quanta(), field.ledger().expected(), "{}", preset.name);
+            assert_eq!(dune_preset(preset.name), Some(preset.clone()), "{} by its name", preset.name);
+        }
+        ripple_preset().bed().unwrap().step();
+        assert_eq!(dune_preset("dune"), None, "no such preset");
+    }
 }

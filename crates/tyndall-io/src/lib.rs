@@ -2,6 +2,7 @@
 //!
 //! - [`write_exr`], [`read_exr`]: scene-linear light with depth, camera, place, unit, primaries and scene hash.
 //! - [`write_png8`], [`write_png16`]: display-referred sRGB with the scene hash in a text chunk.
+//! - [`write_height_map`], [`read_height_map`]: terrain as PNG with 16 bits, R16 and R32.
 //! - [`read_picture_header`], [`is_finished`]: what a file says about itself, without decoding its pixels.
 //! - [`TableFolder`]: tables kept between runs, in the user's cache.
 //! - [`write_npz`], [`read_npz`], [`write_npy`], [`read_npy`]: arrays by name, as `NumPy` has them.
@@ -18,6 +19,7 @@ mod exr_order;
 mod exr_read;
 mod exr_write;
 mod header;
+mod height_map;
 mod npy;
 mod npz;
 mod picture;
@@ -29,6 +31,7 @@ pub use error::IoError;
 pub use exr_read::read_exr;
 pub use exr_write::{Channels, Compression, ExrOptions, Precision, SKY_DEPTH_M, WriteReport, write_exr};
 pub use header::{PictureFormat, PictureHeader, is_finished, read_picture_header};
+pub use height_map::{HeightFormat, HeightMap, HeightScale, read_height_map, write_height_map};
 pub use npz::{read_npy, read_npz, write_npy, write_npz};
 pub use picture::{MAX_PIXELS, MAX_SIDE_PX, Picture, PictureMetadata, Projection, check_size};
 pub use png_write::{write_png8, write_png16};

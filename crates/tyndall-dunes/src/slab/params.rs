@@ -82,12 +82,14 @@ params! {
         enabled: bool = false, "Nield and Baas 2008";
         /// Share of cells that carry plants at the start.
         cover: f64 = 0.02, ["1", 0.0..=1.0, Linear], "Nield and Baas 2008";
+        /// Radius of a clump of plants.
+        clump_cells: u32 = 3, ["cells", 0.0..=16.0, Linear], "design";
         /// How much a plant's cover grows in 16 steps when it is buried at the best rate.
-        growth: f64 = 0.05, ["1", 0.0..=0.5, Linear], "Nield and Baas 2008";
+        growth: f64 = 0.1, ["1", 0.0..=0.5, Linear], "Nield and Baas 2008";
         /// Burial in 16 steps at which plants grow best.
-        best_burial_cells: f64 = 0.05, ["cells", 0.0..=1.0, Linear], "Nield and Baas 2008";
+        best_burial_cells: f64 = 0.1, ["cells", 0.0..=1.0, Linear], "Nield and Baas 2008";
         /// Burial or erosion in 16 steps, away from the best, at which plants neither grow nor die.
-        tolerance_cells: f64 = 0.25, ["cells", 0.02..=2.0, Linear], "Nield and Baas 2008";
+        tolerance_cells: f64 = 0.6, ["cells", 0.02..=2.0, Linear], "Nield and Baas 2008";
         /// Slope at which fully covered sand starts to slide.
         repose_deg: f64 = 45.0, ["deg", 10.0..=70.0, Linear], "Paris et al. 2019";
     }

@@ -21,7 +21,7 @@ pub(crate) struct Plants {
 }
 
 impl Plants {
-    /// Seedlings on the given share of cells.
+    /// Clumps of plants on about the given share of cells.
     pub(crate) fn new(
         params: &VegetationParams,
         lattice: Lattice,
@@ -29,15 +29,9 @@ impl Plants {
         heights: &[i32],
     ) -> Result<Self, DuneError> {
         check_params(params)?;
-        let key = step_key(seed, 0, super::field::PLANT_STREAM);
-        let chance = fixed(params.cover, 65536.0).cast_unsigned();
-        let seedling = |cell: u32| {
-            let word = cell_word(key, cell);
-            if word & 0xFFFF < chance { 64 + (word >> 25) as u8 } else { 0 }
-        };
         let quanta = f64::from(DUNE_QUANTA_PER_CELL);
         Ok(Self {
-            cover: (0..lattice.cells() as u32).map(seedling).collect(),
+            cover: clumps(params, lattice, step_key(seed, 0, super::field::PLANT_STREAM)),
             then: heights.to_vec(),
             growth: fixed(params.growth, 255.0),
             best_burial: fixed(params.best_burial_cells, quanta),
@@ -64,4 +58,23 @@ impl Plants {
     pub(crate) fn raise(&self, bare: i32, corner: usize, index: usize) -> i32 {
         bare + (((self.repose[corner] - bare).max(0) * i32::from(self.cover[index])) >> 8)
     }
+}
+
+/// Cover by round clumps around random cells, half as dense at the rim as in the middle.
+fn clumps(params: &VegetationParams, lattice: Lattice, key: u32) -> Vec<u8> {
+    let radius = params.clump_cells as i32;
+    let disc = || (-radius..=radius).flat_map(move |y| (-radius..=radius).map(move |x| [x, y]));
+    let inside = |[x, y]: &[i32; 2]| x * x + y * y <= radius * radius;
+    let area = disc().filter(inside).count() as f64;
+    let chance = fixed(params.cover / area, 16_777_216.0).cast_unsigned();
+    let mut cover = vec![0; lattice.cells()];
+    for index in (0..lattice.cells() as u32).filter(|&index| cell_word(key, index) & 0x00FF_FFFF < chance) {
+        let [x, y] = lattice.position(index as usize).map(|part| part as i32);
+        for [dx, dy] in disc().filter(inside) {
+            let density = 240 - 120 * (dx * dx + dy * dy) / (radius * radius).max(1);
+            let cell = &mut cover[lattice.index(x + dx, y + dy)];
+            *cell = density.max(i32::from(*cell)) as u8;
+        }
+    }
+    cover
 }
