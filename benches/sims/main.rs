@@ -1,7 +1,9 @@
 //! Times the CPU side: exact integrals against tables, sand automata, and work on one thread against all.
 
+mod clouds;
 mod dunes;
 mod lookups;
+mod naive_clouds;
 mod tables;
 
 use anyhow::{Result, ensure};
@@ -51,13 +53,16 @@ fn main() -> Result<()> {
     print_line(&format!("{threads} CPU threads; microseconds a call, and how many times faster than the first way"))?;
     print_line(&format!("{:<34} {:<28} {:>12} {:>12} {:>9}", "", "", "median", "p95", "ratio"))?;
 
-    let runs: [(&str, Run); 9] = [
+    let runs: [(&str, Run); 12] = [
         (lookups::COLUMNS, lookups::columns),
         (lookups::DIRECTION, lookups::direction),
         (lookups::IRRADIANCE, lookups::irradiance),
         (tables::COLUMNS, tables::columns),
         (tables::SKY_VIEW, tables::sky_view),
         (tables::IRRADIANCE, tables::irradiance),
+        (clouds::RULE, clouds::rule),
+        (clouds::STEP, clouds::step),
+        (clouds::FRAME, clouds::frame),
         (dunes::RIPPLES, dunes::ripples),
         (dunes::DUNES, dunes::dunes),
         (dunes::GROWN_DUNES, dunes::grown_dunes),

@@ -2,6 +2,7 @@
 //! reference, and laws that a picture obeys.
 
 mod background;
+mod clouds;
 mod dome;
 mod gpu_orders;
 mod gpu_tables;
