@@ -11,6 +11,7 @@ mod params;
 mod plants;
 mod rock;
 mod rule;
+mod save;
 mod surface;
 mod surroundings;
 mod transport;
