@@ -1,5 +1,5 @@
 // The ground's mesh: rings around the camera, dense near it, over the azimuths in view. A vertex is (east and north of
-// the camera, altitude, spacing of its ring), in metres. In a city the ground is level.
+// the camera, altitude, spacing of its ring), in metres.
 // @import frame/frame.wgsl
 // @import landscape/relief.wgsl
 
@@ -26,11 +26,7 @@ fn landscape_mesh(@builtin(global_invocation_id) id: vec3<u32>) {
     var altitude = -RELIEF_SINK_M;
     let place = frame.position_m.xy + from_camera;
     if (all(abs(place) < vec2<f32>(landscape.half_size_m))) {
-        if (landscape.city == 1u) {
-            altitude = 0.5;
-        } else {
-            altitude = relief_at(place, 0.5 * spacing).x;
-        }
+        altitude = relief_at(place, 0.5 * spacing).x;
     }
     landscape_vertices[id.y * landscape.columns + id.x] = vec4<f32>(from_camera, altitude, spacing);
 }

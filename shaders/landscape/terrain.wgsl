@@ -1,4 +1,5 @@
-// Draws the terrain: a mesh of rings with the exact slope at each pixel, lit by the sun and by the sky.
+// Draws the terrain: a mesh of rings with the exact slope at each pixel, lit by the sun and by the sky, seen through air.
+// @import aerial/lookup.wgsl
 // @import landscape/place.wgsl
 // @import landscape/shadow_lookup.wgsl
 // @import landscape/surface.wgsl
@@ -34,5 +35,6 @@ fn terrain_fragment(vertex: TerrainVertex) -> @location(0) vec4<f32> {
     let lit = sky_light_sun(altitude, sun.z) * max(nu, 0.0) * shadow_of_terrain(place, ground.x);
     let light = lit + sky_light_irradiance(altitude, sun.z, normal.z, cos_phi, nu);
     let radiance = surface_albedo(place, ground, footprint_m) * light / SKY_PI;
-    return vec4<f32>(radiance * frame.pre_exposure, 1.0);
+    let air = aerial_seen(frame_plane(vertex.clip), distance, sky_sun_cosine(vertex.position / distance));
+    return vec4<f32>((radiance * air.transmittance + air.light) * frame.pre_exposure, 1.0);
 }

@@ -42,21 +42,23 @@ fn light_harmonic(h: f32, sun: OrdersPlace, k: u32) -> Spectrum {
 /// All harmonics of the source table, after the cosine.
 fn light_of_orders(id: vec2<u32>, h: f32, mu_sun: f32) {
     let sun = orders_sun_place(mu_sun);
+    let sky = ground_sky_irradiance(mu_sun);
+    let ground = spectrum_mul(atmosphere.ground_albedo, spectrum_add(sky, ground_sun_irradiance(mu_sun)));
     let zero = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
     var third = zero;
     var fourth = zero;
     var layer = 1u;
     for (var l = 0u; l < ORDERS_DEGREES; l++) { // loops: ORDERS_DEGREES
         for (var m = 0u; m <= l; m++) { // loops: ORDERS_DEGREES
-            var light = zero;
-            if (l <= orders.degree) {
-                light = light_harmonic(h, sun, l * (l + 1u) / 2u + m);
-            }
+            // No branch depends on the uniform alone: see aerial/aerial.wgsl.
+            let k = min(l * (l + 1u) / 2u + m, orders_harmonics() - 1u);
+            let light = spectrum_scale(light_harmonic(h, sun, k), select(0.0, 1.0, l <= orders.degree));
             let about_sun = spectrum_scale(light, orders_harmonic(l, m, mu_sun, 1.0) * 4.0 * LIGHT_PI / f32(2u * l + 1u));
             if (l == 3u) { third = spectrum_add(third, about_sun); }
             if (l == 4u) { fourth = spectrum_add(fourth, about_sun); }
             if (l != 3u) {
-                light_store(id, layer, light, LIGHT_COSINE_MOMENTS[l] * orders.brightness);
+                let scattered = spectrum_scale(light, LIGHT_COSINE_MOMENTS[l] * orders.brightness);
+                light_store(id, layer, spectrum_add(scattered, light_of_uniform_sky(layer, sky, ground)), 1.0);
                 layer += 1u;
             }
         }
@@ -66,17 +68,12 @@ fn light_of_orders(id: vec2<u32>, h: f32, mu_sun: f32) {
     light_store(id, layer, lobe, 13.0 / (4.0 * LIGHT_PI) * LIGHT_COSINE_MOMENT_6 * orders.brightness);
 }
 
-/// A uniform sky over a uniform ground, by light scattered once.
-fn light_of_uniform_sky(id: vec2<u32>, mu_sun: f32) {
-    let sky = ground_sky_irradiance(mu_sun);
-    let ground = spectrum_mul(atmosphere.ground_albedo, spectrum_add(sky, ground_sun_irradiance(mu_sun)));
-    let zero = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
-    for (var layer = 1u; layer < SKY_LIGHT_LAYERS; layer++) { // loops: SKY_LIGHT_LAYERS
-        var light = zero;
-        if (layer == 1u) { light = spectrum_scale(spectrum_add(sky, ground), 0.5 / ORDERS_NORMS[0]); }
-        if (layer == 2u) { light = spectrum_scale(spectrum_add(sky, spectrum_scale(ground, -1.0)), 0.5 / ORDERS_NORMS[1]); }
-        light_store(id, layer, light, 1.0);
-    }
+/// A uniform sky over a uniform ground, by light scattered once: the harmonic of a layer, 0 with all orders.
+fn light_of_uniform_sky(layer: u32, sky: Spectrum, ground: Spectrum) -> Spectrum {
+    let sum = select(0.0, 0.5 / ORDERS_NORMS[0], layer == 1u);
+    let difference = select(0.0, 0.5 / ORDERS_NORMS[1], layer == 2u);
+    let single = select(1.0, 0.0, orders.brightness > 0.0);
+    return spectrum_add(spectrum_scale(sky, single * (sum + difference)), spectrum_scale(ground, single * (sum - difference)));
 }
 
 @compute @workgroup_size(8, 8, 1)
@@ -85,9 +82,5 @@ fn sky_light_table(@builtin(global_invocation_id) id: vec3<u32>) {
     let h = sky_light.top_altitude_m * f32(id.y) / f32(SKY_LIGHT_ALTITUDES - 1u);
     let mu_sun = mix(sky_light.lowest_mu_sun, sky_light.highest_mu_sun, f32(id.x) / f32(SKY_LIGHT_SUNS - 1u));
     light_store(id.xy, 0u, light_of_sun(h, mu_sun), 1.0);
-    if (orders.brightness > 0.0) {
-        light_of_orders(id.xy, h, mu_sun);
-    } else {
-        light_of_uniform_sky(id.xy, mu_sun);
-    }
+    light_of_orders(id.xy, h, mu_sun);
 }

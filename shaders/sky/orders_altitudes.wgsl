@@ -46,10 +46,11 @@ fn orders_haze_place(h: f32) -> OrdersPlace {
 /// Place of an altitude (m).
 fn orders_altitude_place(h: f32) -> OrdersPlace {
     let below = orders_haze_nodes();
-    if (below > 0u && h < atmosphere.haze_zone_m) {
+    // No branch depends on the uniform alone: see aerial/aerial.wgsl.
+    let end = select(0.0, atmosphere.haze_zone_m, below > 0u);
+    if (h < end) {
         return orders_haze_place(max(h, 0.0));
     }
-    let end = select(0.0, atmosphere.haze_zone_m, below > 0u);
     let share = sqrt(clamp((h - end) / (atmosphere.top_altitude_m - end), 0.0, 1.0));
     let place = orders_place(share * f32(orders.altitudes - below - 1u), orders.altitudes - below);
     return OrdersPlace(place.index + below, place.fraction);

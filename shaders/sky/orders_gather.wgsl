@@ -34,16 +34,18 @@ fn orders_scattered(h: f32, mu: f32, mu_sun: f32, nu: f32) -> Scattered {
     var out = scattered_nothing();
     var azimuth = vec2<f32>(cos_phi, 1.0);
     var diagonal = 1.0;
-    for (var m = 0u; m <= orders.degree; m++) { // loops: ORDERS_DEGREES
+    // Higher harmonics than the table's have no weight. No branch here depends on the uniform: see
+    // aerial/aerial.wgsl.
+    let last = orders_harmonics() - 1u;
+    for (var m = 0u; m < ORDERS_DEGREES; m++) { // loops: ORDERS_DEGREES
         var legendre = vec2<f32>(0.0, diagonal);
-        for (var l = m; l <= orders.degree; l++) { // loops: ORDERS_DEGREES
+        for (var l = m; l < ORDERS_DEGREES; l++) { // loops: ORDERS_DEGREES
             let k = l * (l + 1u) / 2u + m;
-            let light = orders_mix(nodes, weights * (ORDERS_NORMS[k] * legendre.y * azimuth.y), 2u * k);
+            let harmonic = select(0.0, ORDERS_NORMS[k] * legendre.y * azimuth.y, l <= orders.degree);
+            let light = orders_mix(nodes, weights * harmonic, 2u * min(k, last));
             out.air = spectrum_add(out.air, spectrum_scale(light, orders.moments[l].x));
             out.aerosol = spectrum_add(out.aerosol, spectrum_scale(light, orders.moments[l].y));
-            if (atmosphere_hazy()) {
-                out.haze = spectrum_add(out.haze, spectrum_scale(light, orders.moments[l].z));
-            }
+            out.haze = spectrum_add(out.haze, spectrum_scale(light, orders.moments[l].z));
             legendre = vec2<f32>(legendre.y, orders_legendre_next(l, m, mu, legendre.x, legendre.y));
         }
         azimuth = vec2<f32>(azimuth.y, 2.0 * cos_phi * azimuth.y - azimuth.x);

@@ -10,6 +10,15 @@ macro_rules! wgsl {
 /// All WGSL files, sorted: name relative to the folder `shaders/`, with `/` on every system, and text.
 pub const FILES: &[(&str, &str)] = wgsl![
     // One line a file, sorted; the tests of this crate name the line to add when one is forgotten.
+    "aerial/aerial.wgsl",
+    "aerial/lookup.wgsl",
+    "aerial/volume.wgsl",
+    "aerial/aerial.wgsl",
+    "aerial/lookup.wgsl",
+    "aerial/volume.wgsl",
+    "aerial/aerial.wgsl",
+    "aerial/lookup.wgsl",
+    "aerial/volume.wgsl",
     "common/lattice.wgsl",
     "common/noise.wgsl",
     "common/phase.wgsl",

@@ -236,15 +236,10 @@ pub(crate) const ALL: &[Precondition] = &[
             ("landscape.height_m", None),
             ("landscape.feature_km", None),
             ("landscape.snow_line_m", Some(900.0)),
+            ("sky.aerial_columns", Some(5.0)),
+            ("sky.aerial_rows", Some(5.0)),
+            ("sky.aerial_distance_km", Some(2.0)),
         ],
-    },
-    Precondition {
-        name: "a city",
-        prepare: |scene| {
-            valley(scene);
-            scene.landscape.kind = LandscapeKind::City;
-        },
-        parameters: &[("landscape.building_m", None)],
     },
     Precondition {
         name: "the automatic exposure",

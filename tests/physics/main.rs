@@ -1,6 +1,7 @@
 //! Physics from end to end: the f64 reference against independent data, the GPU's tables and frames against the
 //! reference, and laws that a picture obeys.
 
+mod aerial;
 mod background;
 mod clouds;
 mod dome;

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use naga::{AddressSpace, Handle, Type, TypeInner};
 use tyndall_gpu::layout::StructLayout;
 use tyndall_gpu::rust_layout;
+use tyndall_render::aerial::gpu_data::Aerial;
 use tyndall_render::frame::gpu_data::Frame;
 use tyndall_render::landscape::gpu_data::Landscape;
 use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyLight, SkyView};
@@ -71,6 +72,7 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
                 largest,
             }),
         ),
+        ("Aerial", rust_layout!(Aerial { columns, rows, far_m, unit })),
         landscape(),
         orders(),
         ("SkyLight", rust_layout!(SkyLight { lowest_mu_sun, highest_mu_sun, top_altitude_m, lux })),
@@ -117,7 +119,6 @@ fn landscape() -> (&'static str, StructLayout) {
             snow_line_m,
             ground_albedo,
             key,
-            city,
             columns,
             rings,
             far_rings,
@@ -129,8 +130,10 @@ fn landscape() -> (&'static str, StructLayout) {
             sun_tan_low,
             sun_tan_high,
             valley_phase,
+            padding0,
             sun_heading,
-            padding,
+            padding1,
+            padding2,
         }),
     )
 }

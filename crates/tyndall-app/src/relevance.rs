@@ -22,6 +22,11 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
         ("ground", "red" | "green" | "blue") if scene.ground.material.name() != "colour" => {
             Some("The ground has the spectrum of a material; set Material to colour.")
         }
+        ("sky", "aerial_columns" | "aerial_rows" | "aerial_distance_km")
+            if scene.landscape.kind == LandscapeKind::None =>
+        {
+            Some("Nothing stands in the air; set Kind of the landscape.")
+        }
         ("sky", "orders_detail") if scene.sky.orders == Orders::Single => {
             Some("Light counts that was scattered once; set Orders to all.")
         }
@@ -36,12 +41,6 @@ fn landscape(kind: LandscapeKind, name: &str) -> Option<&'static str> {
     match (kind, name) {
         (_, "kind") => None,
         (LandscapeKind::None, _) => Some("There is no landscape; set Kind to one."),
-        (LandscapeKind::City, "height_m" | "feature_km" | "snow_line_m") => {
-            Some("A city has no hills; set Kind to one that has.")
-        }
-        (LandscapeKind::Hills | LandscapeKind::Mountains | LandscapeKind::Valley, "building_m") => {
-            Some("There are no buildings; set Kind to city.")
-        }
         _ => None,
     }
 }
@@ -167,7 +166,7 @@ mod tests {
             "film.ev100",
             "ground.tile_m",
             "landscape.size_km",
-            "landscape.building_m",
+            "sky.aerial_rows",
             "moon.elevation_deg",
             "moon.phase_deg",
             "moon.maria",

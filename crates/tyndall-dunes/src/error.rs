@@ -68,14 +68,6 @@ pub enum DuneError {
         /// What is wrong and what is allowed.
         message: String,
     },
-    /// An array of a saved state cannot be used.
-    #[error("array `{name}` of the state: {problem}")]
-    State {
-        /// Name of the array.
-        name: String,
-        /// What is wrong with it.
-        problem: String,
-    },
     /// A wind schedule needs at least one wind that blows.
     #[error("the wind schedule has no wind that blows; at least one needs a share above 0")]
     NoWind,

@@ -38,7 +38,6 @@ pub mod shadow;
 mod side;
 mod simulation;
 pub mod slab;
-mod state;
 pub mod terrain;
 pub mod wind;
 pub mod wind_rose;

@@ -11,7 +11,6 @@ mod params;
 mod plants;
 mod rock;
 mod rule;
-mod save;
 mod surface;
 mod surroundings;
 mod transport;

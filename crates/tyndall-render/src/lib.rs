@@ -11,6 +11,7 @@
 //! Each renderer is three types in one file: its uniform structs in `gpu_data`, the per-frame draw data that owns the bind
 //! groups, and the long-lived renderer that owns the pipelines.
 
+pub mod aerial;
 pub mod develop;
 pub mod dither;
 pub mod environment;

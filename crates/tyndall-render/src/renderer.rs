@@ -9,6 +9,7 @@ use tyndall_scattering::dome::Dome;
 use tyndall_scattering::orders::OrdersQuality;
 use tyndall_scene::{Orders, OrdersDetail, Scene};
 
+use crate::aerial::{AerialRequest, AerialVolume};
 use crate::develop::DevelopRenderer;
 use crate::exposure::ev100_from_gain;
 use crate::frame::{frame_uniform, gpu_data};
@@ -17,7 +18,7 @@ use crate::sky::gpu_data::{Atmosphere as AtmosphereUniform, SkyView};
 use crate::sky::{OrdersRequest, SkyLightTable, SkyRenderer, SkyTables, TableBuilding, TableProgress};
 use crate::{FrameTarget, RenderError, RendererConfig, View};
 
-/// Passes that a frame can have: five tables, light on surfaces, three of the landscape, scene, meter, development.
+/// Passes that a frame can have: five tables, light on surfaces, the air, three of the landscape, scene, meter, development.
 const TIMED_PASSES: u32 = 16;
 
 /// Draws scenes. All pipelines are made at once, so that a wrong shader shows at the start.
@@ -27,6 +28,7 @@ pub struct Renderer {
     frame: Buffer,
     tables: SkyTables,
     light: SkyLightTable,
+    air: AerialVolume,
     sky: SkyRenderer,
     landscape: LandscapeRenderer,
     develop: DevelopRenderer,
@@ -46,6 +48,7 @@ impl Renderer {
             frame: gpu.buffer("frame", frame_bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
             tables: SkyTables::new(gpu)?,
             light: SkyLightTable::new(gpu)?,
+            air: AerialVolume::new(gpu)?,
             sky: SkyRenderer::new(gpu, config)?,
             landscape: LandscapeRenderer::new(gpu, config)?,
             develop: DevelopRenderer::new(gpu, config)?,
@@ -97,7 +100,7 @@ impl Renderer {
         let orders = OrdersRequest { model: &model, quality: orders_quality(scene), brightness: scene.sun.brightness };
         self.tables.update_night(gpu, scene, &model, pixel_angle(&frame))?;
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
-        let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), target.size_px())?;
+        let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), &frame)?;
         self.record_scene(gpu, &mut encoder, (scene, landscape), target)?;
         if view != View::Panorama {
             let data = self.develop.prepare(gpu, &self.frame, target)?;
@@ -147,11 +150,15 @@ impl Renderer {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         (scene, view): (&Scene, View),
-        size_px: [u32; 2],
+        frame: &gpu_data::Frame,
     ) -> Result<Option<LandscapeDrawData>, RenderError> {
+        let size_px = frame.size_px;
         let Some(reach) = crate::landscape::reach(scene, view, size_px) else { return Ok(None) };
         self.light.update(gpu, encoder, &mut self.timer, &self.tables, (scene, reach))?;
-        let surroundings = LandscapeSurroundings { frame: &self.frame, tables: &self.tables, light: &self.light };
+        let request = AerialRequest { scene, reach, frame: (frame, &self.frame) };
+        self.air.update(gpu, encoder, &mut self.timer, &self.tables, request)?;
+        let surroundings =
+            LandscapeSurroundings { frame: &self.frame, tables: &self.tables, light: &self.light, air: &self.air };
         self.landscape.prepare(gpu, encoder, &mut self.timer, (scene, view, size_px), surroundings)
     }
 
@@ -198,6 +205,18 @@ impl Renderer {
         self.tables.set_store(store);
     }
 
+    /// The volume of air in front of the camera, for tests and compositors.
+    #[must_use]
+    pub fn air(&self) -> &AerialVolume {
+        &self.air
+    }
+
+    /// The landscape, for tests.
+    #[must_use]
+    pub fn landscape(&self) -> &LandscapeRenderer {
+        &self.landscape
+    }
+
     /// Chooses when the slow table of all orders is made; at first the frame waits for it.
     pub fn set_table_building(&mut self, building: TableBuilding) {
         self.tables.set_building(building);
@@ -212,6 +231,7 @@ impl Renderer {
     /// Forgets the tables, so that the next frame fills them again; for timing.
     pub fn invalidate_tables(&mut self) {
         self.tables.invalidate();
+        self.air.invalidate();
     }
 }
 

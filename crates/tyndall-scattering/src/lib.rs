@@ -10,6 +10,8 @@
 //! the same of the sun, `nu` = cosine between the two. Wavelengths are those of the [`atmosphere::Atmosphere`]; the
 //! product uses the eight of [`tyndall_core::spectrum`].
 //!
+//! [`aerial`] has the air in front of things, [`sky_light`] the light on them.
+//!
 //! Light scattered more than once is the business of [`orders`]: one table for all suns, marched like the others.
 //!
 //! The sky's light travels straight; [`refraction`] says where the sun, the moon and the stars appear.
@@ -20,6 +22,7 @@
 //!
 //! Not done here: polarisation.
 
+pub mod aerial;
 pub mod aerosol;
 pub mod air;
 pub mod atmosphere;

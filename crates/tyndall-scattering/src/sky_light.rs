@@ -17,7 +17,6 @@ use tyndall_core::spectrum::{Spectrum, WAVELENGTH_COUNT};
 
 use crate::orders::SourceTable;
 use crate::orders::basis::{MAX_DEGREE, MAX_HARMONICS, azimuth_parts, harmonic_index, zenith_parts};
-use crate::orders::nodes::Place;
 
 /// What the clamped cosine leaves of harmonics of degree 0 to 4 (sr).
 pub const COSINE_MOMENTS: [f64; MAX_DEGREE + 1] = [PI, 2.0 * PI / 3.0, PI / 4.0, 0.0, -PI / 24.0];
@@ -42,8 +41,8 @@ impl SkyLight {
         let field = source.field();
         let (altitude, sun) = (field.nodes.altitude_place(altitude_m), field.nodes.sun_place(mu_sun));
         let mut harmonics = [[0.0; WAVELENGTH_COUNT]; MAX_HARMONICS];
-        for (sun, to_sun) in ends(sun) {
-            for (altitude, to_altitude) in ends(altitude) {
+        for (sun, to_sun) in sun.ends() {
+            for (altitude, to_altitude) in altitude.ends() {
                 for (sum, light) in harmonics.iter_mut().zip(field.at(sun, altitude)) {
                     *sum = std::array::from_fn(|k| sum[k] + to_sun * to_altitude * f64::from(light[k]));
                 }
@@ -98,11 +97,6 @@ fn sixth_degree(radiance: &[Spectrum; MAX_HARMONICS], mu_sun: f64) -> Spectrum {
 fn legendre_6(x: f64) -> f64 {
     let square = x * x;
     (((231.0 * square - 315.0) * square + 105.0) * square - 5.0) / 16.0
-}
-
-/// The two nodes around a place and their weights.
-fn ends(Place { index, fraction }: Place) -> [(usize, f64); 2] {
-    [(index, 1.0 - fraction), (index + 1, fraction)]
 }
 
 /// Irradiance (W/m^2/nm) by all diffuse light, the ground's included, of a surface at an altitude (m); see [`SkyLight`],

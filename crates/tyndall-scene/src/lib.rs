@@ -6,7 +6,7 @@
 //! - [`presets`]: the scenes that come with Tyndall.
 //! - [`schema`] and [`markdown_table`]: the format for editors and for readers.
 //! - [`sun`]: direction of the sun from angles or from date, time and place.
-//! - [`landscape`]: heights of hills, mountains and cities.
+//! - [`landscape`]: heights of hills and mountains.
 //! - [`camera`]: axes, rays and matrices of the camera, and how it moves.
 
 pub mod astronomy;

@@ -33,7 +33,7 @@ pub struct Scene {
     pub haze: HazeParams,
     /// The ground.
     pub ground: GroundParams,
-    /// Hills, mountains or buildings on the ground.
+    /// Hills or mountains on the ground.
     pub landscape: LandscapeParams,
     /// How the sky is computed.
     pub sky: SkyParams,

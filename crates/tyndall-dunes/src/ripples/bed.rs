@@ -1,7 +1,6 @@
 //! A bed of sand under the ripple rule.
 
 use rayon::prelude::*;
-use tyndall_core::array::NamedArrays;
 
 use super::nishimori_ouchi1993::{Scratch, step_rows};
 use super::rule::{RIPPLE_QUANTA_PER_CELL, RippleRule};
@@ -11,7 +10,6 @@ use crate::direction::Direction;
 use crate::hash::{cell_word, step_key};
 use crate::lattice::Lattice;
 use crate::simulation::{SandSimulation, StateHash};
-use crate::state;
 
 /// Stream of the hop's dithering along x.
 pub(super) const HOP_STREAM: u32 = 0;
@@ -19,9 +17,6 @@ pub(super) const HOP_STREAM: u32 = 0;
 pub(super) const HOP_STREAM_Y: u32 = 1;
 /// Stream of the noise at the start.
 const NOISE_STREAM: u32 = 2;
-
-/// Heights stay within this of the mean bed (cells).
-const MAX_HEIGHT_CELLS: i32 = 16_384;
 
 /// A periodic bed of sand with ripples; heights in quanta of 1/[`RIPPLE_QUANTA_PER_CELL`] cell over its mean.
 #[derive(Clone, Debug)]
@@ -89,37 +84,14 @@ impl RippleBed {
     /// [`DuneError::GridSize`] when their number is wrong, [`DuneError::Height`] when one is beyond 16,384 cells.
     pub fn set_heights(&mut self, heights: &[i32]) -> Result<(), DuneError> {
         self.lattice.check_grid("the heights", heights.len())?;
-        let limit = (MAX_HEIGHT_CELLS * RIPPLE_QUANTA_PER_CELL).unsigned_abs();
+        let limit_cells = 16_384;
+        let limit = (limit_cells * RIPPLE_QUANTA_PER_CELL).unsigned_abs();
         if let Some(index) = heights.iter().position(|height| height.unsigned_abs() > limit) {
             let [x, y] = self.lattice.position(index);
             let value = f64::from(heights[index]) / f64::from(RIPPLE_QUANTA_PER_CELL);
-            return Err(DuneError::Height { what: "a height", x, y, value, limit: f64::from(MAX_HEIGHT_CELLS) });
+            return Err(DuneError::Height { what: "a height", x, y, value, limit: f64::from(limit_cells) });
         }
         self.heights.copy_from_slice(heights);
-        Ok(())
-    }
-
-    /// Everything that steps change: `height` (quanta).
-    #[must_use]
-    pub fn state(&self) -> NamedArrays {
-        let mut arrays = state::begin(self.step, self.state_hash());
-        state::push(&mut arrays, "height", self.lattice.size().to_vec(), state::quanta(&self.heights));
-        arrays
-    }
-
-    /// Takes up a state that a bed with the same parameters gave; nothing changes when it is refused.
-    ///
-    /// # Errors
-    /// [`DuneError::State`] when an array is absent, of another kind or size, out of range, or does not have the hash that
-    /// the state says.
-    pub fn restore(&mut self, arrays: &NamedArrays) -> Result<(), DuneError> {
-        let (step, hash) = state::step_and_hash(arrays)?;
-        let heights =
-            state::heights(arrays, "height", self.lattice.cells(), MAX_HEIGHT_CELLS * RIPPLE_QUANTA_PER_CELL)?;
-        if StateHash::new(self.lattice, step).with_grid(&heights).finish() != hash {
-            return Err(state::wrong("hash", "it is not the hash of the heights; the file is damaged".to_owned()));
-        }
-        (self.heights, self.step) = (heights, step);
         Ok(())
     }
 
@@ -167,37 +139,5 @@ impl SandSimulation for RippleBed {
 
     fn state_hash(&self) -> u64 {
         StateHash::new(self.lattice, self.step).with_grid(&self.heights).finish()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::side::Side;
-
-    #[test]
-    fn a_restored_bed_goes_on_with_the_same_bits() {
-        let params = RippleParams { side: Side::Cells64, ..RippleParams::default() };
-        let mut original = RippleBed::new(&params).unwrap();
-        original.run(20);
-        let mut other = RippleBed::new(&params).unwrap();
-        other.restore(&original.state()).unwrap();
-        original.run(20);
-        other.run(20);
-        assert_eq!(original.state(), other.state(), "after 40 steps");
-    }
-
-    #[test]
-    fn the_fused_step_is_the_step_for_any_direction_along_the_rows() {
-        let params =
-            RippleParams { side: Side::Cells64, depth_cells: 0.3, noise_cells: 2.0, ..RippleParams::default() };
-        let mut bed = RippleBed::new(&params).unwrap();
-        for _ in 0..20 {
-            let keys = [HOP_STREAM, HOP_STREAM_Y].map(|stream| step_key(bed.seed, bed.step, stream));
-            let mut expected = vec![0; bed.heights.len()];
-            any_direction::step(&bed.rule, keys, Direction::EAST, bed.lattice, &bed.heights, &mut expected);
-            bed.step();
-            assert!(bed.heights == expected, "step {}", bed.step);
-        }
     }
 }

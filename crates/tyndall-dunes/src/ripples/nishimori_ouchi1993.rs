@@ -5,8 +5,8 @@
 //!
 //! The step is fused: a window of three rows is saltated and then creeps, so each height is read and written once. Rows
 //! are independent in saltation (the wind blows along them). Arrivals are counted by comparing a row of one-byte hops
-//! with every length that occurs in it, which compilers turn into 16 to 64 lanes; creep is a flux between each pair of
-//! neighbours that truncates towards zero, which is odd, so both ends agree.
+//! with every length that occurs in it, which compilers turn into 16 to 64 lanes; creep computes each pair of neighbours
+//! once, as a flux that truncates towards zero, which is odd, so both ends agree.
 //!
 //! Departures from the printed rule: the fraction of L is a probability (rounding leaves nearly flat beds dead), a cell
 //! lifts nothing in the lee of a crest or when less than a layer of sand is left.
@@ -34,6 +34,10 @@ pub(super) struct Scratch {
     shadow: [Vec<i32>; 2],
     /// Three saltated rows, each with one cell of halo at either end.
     rows: [Vec<i32>; 3],
+    /// Fluxes of creep: to the right, upwards, up and right, up and left; a cell of halo at either end.
+    fluxes: [Vec<i32>; 4],
+    /// What the row loses to the row below it.
+    lost: Vec<i32>,
 }
 
 impl Scratch {
@@ -45,13 +49,9 @@ impl Scratch {
             hops: vec![0; nx + HALO],
             shadow: [vec![0; REACH + nx], vec![0; REACH + nx]],
             rows: [padded(), padded(), padded()],
+            fluxes: [padded(), padded(), padded(), padded()],
+            lost: vec![0; nx],
         }
-    }
-
-    /// Cells of a row.
-    #[inline(always)]
-    fn row_cells(&self) -> usize {
-        self.rows[0].len() - 2
     }
 }
 
@@ -85,15 +85,18 @@ impl pulp::NullaryFnOnce for Task<'_> {
     #[inline(always)]
     fn call(self) {
         let Self { rule, key, heights, first_row, out, scratch } = self;
-        let nx = scratch.row_cells();
+        let nx = scratch.lost.len();
         let ny = heights.len() / nx;
         saltate_row(rule, key, (first_row + ny - 1) % ny, heights, 0, scratch);
         saltate_row(rule, key, first_row, heights, 1, scratch);
+        creep_fluxes(rule, 0, 1, scratch);
+        lost_to_row_below(scratch);
         for (index, out) in out.chunks_exact_mut(nx).enumerate() {
             let (here, above) = ((index + 1) % 3, (index + 2) % 3);
             saltate_row(rule, key, (first_row + index + 1) % ny, heights, above, scratch);
-            let [below, here, above] = [index % 3, here, above].map(|slot| scratch.rows[slot].as_slice());
-            creep_row(rule, below, here, above, out);
+            creep_fluxes(rule, here, above, scratch);
+            apply_fluxes(here, scratch, out);
+            lost_to_row_below(scratch);
         }
     }
 }
@@ -101,7 +104,7 @@ impl pulp::NullaryFnOnce for Task<'_> {
 /// Saltation of one row into `scratch.rows[slot]`.
 #[inline(always)]
 fn saltate_row(rule: &RippleRule, key: u32, row: usize, heights: &[i32], slot: usize, scratch: &mut Scratch) {
-    let nx = scratch.row_cells();
+    let nx = scratch.lost.len();
     let heights = &heights[row * nx..][..nx];
     let out = &mut scratch.rows[slot];
     if rule.saltates == 0 {
@@ -109,7 +112,10 @@ fn saltate_row(rule: &RippleRule, key: u32, row: usize, heights: &[i32], slot: u
     } else {
         let [shortest, longest] = hop_lengths(rule, key, row, heights, &mut scratch.words, &mut scratch.hops);
         rest_in_lee(rule, heights, &mut scratch.shadow, &mut scratch.hops[HALO..]);
-        fill_halo(&mut scratch.hops, HALO);
+        for index in 0..HALO {
+            // A narrow row goes round several times; nx is a power of two.
+            scratch.hops[HALO - 1 - index] = scratch.hops[HALO + ((nx - 1 - index % nx) & (nx - 1))];
+        }
         move_layers(rule.layer, [shortest, longest], heights, &scratch.hops, &mut out[1..=nx]);
     }
     (out[0], out[nx + 1]) = (out[nx], out[1]);
@@ -166,25 +172,13 @@ fn rest_in_lee(rule: &RippleRule, heights: &[i32], shadow: &mut [Vec<i32>; 2], h
 #[inline(always)]
 fn highest_of(distances: [usize; 4], fall: i32, row: &mut [i32], out: &mut [i32]) {
     let nx = row.len() - REACH;
-    fill_halo(row, REACH);
+    for index in 0..REACH {
+        row[REACH - 1 - index] = row[REACH + ((nx - 1 - index % nx) & (nx - 1))];
+    }
     let [a, b, c, d] = distances.map(|distance| &row[REACH - distance..][..nx]);
     let [fall_a, fall_b, fall_c, fall_d] = distances.map(|distance| distance as i32 * fall);
     for ((((out, a), b), c), d) in out[REACH..].iter_mut().zip(a).zip(b).zip(c).zip(d) {
         *out = (a - fall_a).max(b - fall_b).max(c - fall_c).max(d - fall_d);
-    }
-}
-
-/// Repeats the end of a periodic row in the halo before it.
-#[inline(always)]
-fn fill_halo<T: Copy>(row: &mut [T], halo: usize) {
-    let nx = row.len() - halo;
-    if nx >= halo {
-        row.copy_within(nx.., 0);
-    } else {
-        // A narrow row goes round several times.
-        for index in (0..halo).rev() {
-            row[index] = row[index + nx];
-        }
     }
 }
 
@@ -209,22 +203,26 @@ fn move_layers(layer: i32, [shortest, longest]: [u8; 2], heights: &[i32], hops: 
     }
 }
 
-/// Creep of the row `here` between its neighbours; each flux is computed at both of its ends, which costs less than
-/// keeping it.
+/// Creep within row `here` and between it and the row `above`.
 #[inline(always)]
-fn creep_row(rule: &RippleRule, below: &[i32], here: &[i32], above: &[i32], out: &mut [i32]) {
-    let nx = out.len();
-    let side = |difference: i32| creep(difference, rule.creep_side, rule.creep_limit);
-    let corner = |difference: i32| creep(difference, rule.creep_corner, rule.creep_limit);
-    let (b0, b1, b2) = (&below[..nx], &below[1..=nx], &below[2..nx + 2]);
-    let (h0, h1, h2) = (&here[..nx], &here[1..=nx], &here[2..nx + 2]);
-    let (a0, a1, a2) = (&above[..nx], &above[1..=nx], &above[2..nx + 2]);
-    for x in 0..nx {
-        let height = h1[x];
-        let sides = side(h0[x] - height) + side(h2[x] - height) + side(b1[x] - height) + side(a1[x] - height);
-        let corners = corner(b0[x] - height) + corner(b2[x] - height) + corner(a0[x] - height) + corner(a2[x] - height);
-        out[x] = height + sides + corners;
+fn creep_fluxes(rule: &RippleRule, here: usize, above: usize, scratch: &mut Scratch) {
+    let nx = scratch.lost.len();
+    let [right, up, up_right, up_left] = &mut scratch.fluxes;
+    let (here, above) = (&scratch.rows[here], &scratch.rows[above]);
+    fluxes_to(&here[1..=nx], &here[2..], rule.creep_side, rule.creep_limit, right);
+    fluxes_to(&here[1..=nx], &above[1..=nx], rule.creep_side, rule.creep_limit, up);
+    fluxes_to(&here[1..=nx], &above[2..], rule.creep_corner, rule.creep_limit, up_right);
+    fluxes_to(&here[1..=nx], &above[..nx], rule.creep_corner, rule.creep_limit, up_left);
+}
+
+/// What each cell of `here` gains from its neighbour in `there`.
+#[inline(always)]
+fn fluxes_to(here: &[i32], there: &[i32], share: i32, limit: i32, out: &mut [i32]) {
+    let nx = here.len();
+    for ((out, &here), &there) in out[1..=nx].iter_mut().zip(here).zip(there) {
+        *out = creep(there - here, share, limit);
     }
+    (out[0], out[nx + 1]) = (out[nx], out[1]);
 }
 
 /// Flux to a cell from a neighbour that stands higher by `difference`.
@@ -233,4 +231,29 @@ pub(crate) fn creep(difference: i32, share: i32, limit: i32) -> i32 {
     let product = difference.clamp(-limit, limit) * share;
     // Division by a power of two that truncates towards zero, as "/" does in WGSL.
     (product + ((product >> 31) & ((1 << CREEP_BITS) - 1))) >> CREEP_BITS
+}
+
+/// Adds the fluxes to row `here`.
+#[inline(always)]
+fn apply_fluxes(here: usize, scratch: &Scratch, out: &mut [i32]) {
+    let nx = out.len();
+    let [right, up, up_right, up_left] = &scratch.fluxes;
+    let (right_in, right_out, up) = (&right[1..=nx], &right[..nx], &up[1..=nx]);
+    let (up_right, up_left) = (&up_right[1..=nx], &up_left[1..=nx]);
+    let (here, lost) = (&scratch.rows[here][1..=nx], &scratch.lost[..nx]);
+    for x in 0..nx {
+        let gained = right_in[x] - right_out[x] + up[x] + up_right[x] + up_left[x];
+        out[x] = here[x] + gained - lost[x];
+    }
+}
+
+/// Keeps what the upper row of the fluxes gave to the lower one.
+#[inline(always)]
+fn lost_to_row_below(scratch: &mut Scratch) {
+    let nx = scratch.lost.len();
+    let [_, up, up_right, up_left] = &scratch.fluxes;
+    let (up, up_right, up_left) = (&up[1..=nx], &up_right[..nx], &up_left[2..]);
+    for (((lost, up), up_right), up_left) in scratch.lost.iter_mut().zip(up).zip(up_right).zip(up_left) {
+        *lost = up + up_right + up_left;
+    }
 }

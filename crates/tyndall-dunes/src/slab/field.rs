@@ -45,17 +45,17 @@ pub struct DuneField {
     edges: Edges,
     seed: u32,
     winds: WindSchedule,
-    pub(super) step: u32,
+    step: u32,
     /// Bed: sand and what lies under it.
     pub(crate) heights: Vec<i32>,
     /// What lies under the sand.
     pub(crate) bedrock: Vec<i32>,
     pub(crate) walls: Option<Vec<u8>>,
-    pub(super) plants: Option<Plants>,
+    plants: Option<Plants>,
     rock: Option<Rock>,
     pub(crate) ledger: Ledger,
     // Working memory; nothing of it is part of the state but `means`.
-    pub(super) means: Vec<i32>,
+    means: Vec<i32>,
     shadow: ShadowLine,
     surface: Surface,
     change: Vec<i32>,

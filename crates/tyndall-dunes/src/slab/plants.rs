@@ -13,7 +13,7 @@ pub(crate) struct Plants {
     /// Cover of each cell: 0 is bare, 255 full.
     pub(crate) cover: Vec<u8>,
     /// Heights when the plants were last looked at.
-    pub(super) then: Vec<i32>,
+    then: Vec<i32>,
     growth: i32,
     best_burial: i32,
     tolerance: i32,
@@ -38,11 +38,6 @@ impl Plants {
             tolerance: fixed(params.tolerance_cells, quanta).max(1),
             repose: stable_differences(params.repose_deg),
         })
-    }
-
-    /// The plants with another cover and other heights of the last look.
-    pub(super) fn with_state(self, cover: Vec<u8>, then: Vec<i32>) -> Self {
-        Self { cover, then, ..self }
     }
 
     /// Growth since the last look: full at the best burial, none at the tolerance away from it, decline beyond, at

@@ -23,7 +23,6 @@ pub struct Landscape {
     pub snow_line_m: f32,
     pub ground_albedo: [f32; 3],
     pub key: u32,
-    pub city: u32,
     pub columns: u32,
     pub rings: u32,
     pub far_rings: u32,
@@ -35,8 +34,10 @@ pub struct Landscape {
     pub sun_tan_low: f32,
     pub sun_tan_high: f32,
     pub valley_phase: f32,
+    pub padding0: f32,
     pub sun_heading: [f32; 2],
-    pub padding: [f32; 2],
+    pub padding1: f32,
+    pub padding2: f32,
 }
 
 /// Half the width (rad) over which a shadow's edge fades: the sun's radius, and what the air's glow around it adds.
@@ -77,7 +78,6 @@ impl Landscape {
         };
         match model {
             Model::None => common,
-            Model::City(city) => Self { city: 1, key: city.key, height_m: city.tallest_m as f32, ..common },
             Model::Relief(relief) => Self {
                 base: relief.base.map(|value| value as f32),
                 amplitude: relief.amplitude.map(|value| value as f32),

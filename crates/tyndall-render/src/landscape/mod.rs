@@ -1,4 +1,4 @@
-//! Terrain and cities: geometry to see air by. WGSL: `shaders/landscape`.
+//! Terrain: geometry to see air by. WGSL: `shaders/landscape`.
 //!
 //! The heights are functions of the place (`tyndall_scene::landscape`), which the shaders compute too: for the vertices of a
 //! mesh of rings around the camera, and again, with their exact slope, at each pixel. Light comes from
@@ -16,6 +16,7 @@ use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, RenderPipeline, Rende
 use tyndall_scene::Scene;
 use tyndall_scene::landscape::Landscape as Model;
 
+use crate::aerial::AerialVolume;
 use crate::sky::{SkyLightReach, SkyLightTable, SkyTables};
 use crate::target::DEPTH_FORMAT;
 use crate::{RenderError, RendererConfig, View};
@@ -54,6 +55,8 @@ pub struct LandscapeSurroundings<'a> {
     pub tables: &'a SkyTables,
     /// Light on surfaces, filled for [`reach`].
     pub light: &'a SkyLightTable,
+    /// Air in front of the camera, filled for [`reach`].
+    pub air: &'a AerialVolume,
 }
 
 /// How far the light on the landscape of a grounded scene must reach; `None` without a landscape in sight.
@@ -127,6 +130,7 @@ impl LandscapeRenderer {
         let mut sky =
             vec![("atmosphere", tables.atmosphere.as_entire_binding()), ("sky_view", tables.view.as_entire_binding())];
         sky.extend(surroundings.light.bindings());
+        sky.extend(surroundings.air.bindings());
         let own = [
             ("landscape", self.uniform.as_entire_binding()),
             ("terrain_vertices", vertices.as_entire_binding()),

@@ -87,16 +87,9 @@ impl SkyLightTable {
         (scene, reach): (&Scene, SkyLightReach),
     ) -> Result<(), RenderError> {
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&SkyLight::new(scene, reach)?));
-        let resources = [
-            ("atmosphere", tables.atmosphere.as_entire_binding()),
-            ("column_table", tables.columns.as_binding()),
-            ("sky_view", tables.view.as_entire_binding()),
-            ("irradiance_table", tables.irradiance.as_binding()),
-            ("orders", tables.orders().uniform.as_entire_binding()),
-            ("orders_source", tables.orders().table.as_entire_binding()),
-            ("sky_light", self.uniform.as_entire_binding()),
-            ("sky_light_texels", self.table.as_binding()),
-        ];
+        let mut resources = tables.air_bindings();
+        resources.push(("sky_light", self.uniform.as_entire_binding()));
+        resources.push(("sky_light_texels", self.table.as_binding()));
         let bindings = self.fill.bind(gpu, 0, &resources)?;
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("sky light"),

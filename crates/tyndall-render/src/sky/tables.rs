@@ -42,6 +42,8 @@ pub struct SkyTables {
     filled_for: Option<(Inputs, [u32; 8])>,
     /// The orders table that the others were filled from.
     filled_from: u64,
+    /// Counts the fillings of any table.
+    revision: u64,
 }
 
 impl SkyTables {
@@ -72,6 +74,7 @@ impl SkyTables {
             night: Night::new(gpu)?,
             filled_for: None,
             filled_from: 0,
+            revision: 0,
         })
     }
 
@@ -119,6 +122,9 @@ impl SkyTables {
         }
         let shared = (&self.columns, &self.orders.uniform, &self.orders.table);
         self.night.moon.record(gpu, encoder, timer, shared, self.orders.version())?;
+        if !(same_orders && filled == Some((inputs, key))) {
+            self.revision += 1;
+        }
         self.filled_for = Some((inputs, key));
         self.filled_from = self.orders.version();
         Ok(())
@@ -137,6 +143,25 @@ impl SkyTables {
             self.sky_view_diffuse = table(gpu, "sky-view table, diffuse", view.diffuse_size())?;
         }
         Ok(())
+    }
+
+    /// Counts the fillings of any table: what was made from them is out of date when this number has changed.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// What shaders need that march through the air near the ground, by the names of their variables.
+    #[must_use]
+    pub fn air_bindings(&self) -> Vec<(&'static str, wgpu::BindingResource<'_>)> {
+        vec![
+            ("atmosphere", self.atmosphere.as_entire_binding()),
+            ("column_table", self.columns.as_binding()),
+            ("sky_view", self.view.as_entire_binding()),
+            ("irradiance_table", self.irradiance.as_binding()),
+            ("orders", self.orders.uniform.as_entire_binding()),
+            ("orders_source", self.orders.table.as_entire_binding()),
+        ]
     }
 
     /// Forgets what the tables hold, so that the next frame fills them again.

@@ -80,6 +80,14 @@ impl HazeNodes {
     }
 }
 
+impl Place {
+    /// The two nodes and their weights.
+    #[must_use]
+    pub fn ends(self) -> [(usize, f64); 2] {
+        [(self.index, 1.0 - self.fraction), (self.index + 1, self.fraction)]
+    }
+}
+
 /// The nodes of a source table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nodes {

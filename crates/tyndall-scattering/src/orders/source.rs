@@ -5,11 +5,13 @@ use std::f64::consts::PI;
 use tyndall_core::spectrum::{Spectrum, WAVELENGTH_COUNT};
 
 use super::OrdersQuality;
+use super::basis::{azimuth_parts, harmonic_index, zenith_parts};
 use super::build::OrderLoop;
 use super::field::{Field, Light, mix};
 use super::media::ScatteringMedia;
 use super::nodes::Place;
-use super::path::{Path, widen};
+use super::path::{Path, azimuth_between, widen};
+use crate::atmosphere::SCATTERER_COUNT;
 use crate::geometry::{Ray, mu_along};
 use crate::march::Marcher;
 use crate::single_scattering::{RayEnd, ray_end};
@@ -46,6 +48,29 @@ impl SourceTable {
         widen(&self.all.irradiance_at(mu_sun))
     }
 
+    /// Mean light around a point (W/m^2/sr/nm), weighted by each medium's phase function towards a ray: altitude (m), zenith
+    /// cosines of ray and sun there, cosine between them.
+    #[must_use]
+    pub fn scattered_at(&self, h_m: f64, (mu, mu_sun): (f64, f64), nu: f64) -> [Spectrum; SCATTERER_COUNT] {
+        let field = &self.all;
+        let (zenith, azimuth) = (zenith_parts(mu, field.degree), azimuth_parts(azimuth_between(mu, mu_sun, nu)));
+        let (altitude, sun) = (field.nodes.altitude_place(h_m), field.nodes.sun_place(mu_sun));
+        let mut sums = [[0.0; WAVELENGTH_COUNT]; SCATTERER_COUNT];
+        for (sun, to_sun) in sun.ends() {
+            for (altitude, to_altitude) in altitude.ends() {
+                let harmonics = field.at(sun, altitude);
+                for l in 0..=field.degree {
+                    for (m, cosine) in azimuth.iter().enumerate().take(l + 1) {
+                        let index = harmonic_index(l, m);
+                        let weight = to_sun * to_altitude * zenith[index] * cosine;
+                        add_to_media(&mut sums, &self.media, l, &harmonics[index], weight);
+                    }
+                }
+            }
+        }
+        sums
+    }
+
     /// The part of [`SourceTable::irradiance`] that was scattered or reflected at least twice: what is to be added to
     /// [`crate::irradiance_table`].
     #[must_use]
@@ -57,6 +82,16 @@ impl SourceTable {
     /// [`SourceTable::irradiance_beyond_first`] at the suns of the table.
     pub fn irradiance_beyond_first_nodes(&self) -> impl Iterator<Item = Light> {
         self.beyond_first.iter().copied()
+    }
+}
+
+/// Adds a harmonic of degree `l` to what each medium scatters.
+fn add_to_media(sums: &mut [Spectrum; SCATTERER_COUNT], media: &ScatteringMedia, l: usize, light: &Light, weight: f64) {
+    for (sum, moments) in sums.iter_mut().zip(&media.moments) {
+        let weight = weight * f64::from(moments[l]);
+        for (sum, light) in sum.iter_mut().zip(light) {
+            *sum += weight * f64::from(*light);
+        }
     }
 }
 

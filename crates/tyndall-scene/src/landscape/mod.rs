@@ -1,16 +1,14 @@
 //! Heights of the landscape: pure functions of place and seed.
 //!
 //! Nothing is stored, so that a mesh of any fineness, a camera that stands on the ground and the shaders (same functions
-//! in f32, `shaders/landscape`) all see the same hills. [`relief`] has the terrain, [`city`] the buildings.
+//! in f32, `shaders/landscape`) all see the same hills. [`relief`] has the terrain.
 //!
 //! Not done: rivers, erosion by simulation, overhangs.
 
-pub mod city;
 pub mod noise;
 pub mod relief;
 
 use crate::{LandscapeKind, LandscapeParams};
-use city::City;
 use relief::Relief;
 
 const M_PER_KM: f64 = 1000.0;
@@ -22,8 +20,6 @@ pub enum Landscape {
     None,
     /// Terrain.
     Relief(Relief),
-    /// Buildings on level ground.
-    City(City),
 }
 
 impl Landscape {
@@ -32,21 +28,19 @@ impl Landscape {
     pub fn new(params: &LandscapeParams) -> Self {
         match params.kind {
             LandscapeKind::None => Self::None,
-            LandscapeKind::City => Self::City(City::new(params)),
             LandscapeKind::Hills | LandscapeKind::Mountains | LandscapeKind::Valley => {
                 Self::Relief(Relief::new(params))
             }
         }
     }
 
-    /// Altitude (m) of what one stands on at a place (m) east and north of the scene's origin: the terrain, a roof, a
-    /// street; 0 outside the landscape.
+    /// Altitude (m) of what one stands on at a place (m) east and north of the scene's origin: the terrain, and 0
+    /// outside the landscape.
     #[must_use]
     pub fn ground_m(&self, x_m: f64, y_m: f64) -> f64 {
         match self {
             Self::None => 0.0,
             Self::Relief(relief) => relief.at(x_m, y_m, 0.0).height_m.max(0.0),
-            Self::City(city) => city.roof_m(x_m, y_m),
         }
     }
 
@@ -56,7 +50,6 @@ impl Landscape {
         match self {
             Self::None => 0.0,
             Self::Relief(relief) => relief.half_size_m,
-            Self::City(city) => city.half_size_m,
         }
     }
 
@@ -66,7 +59,6 @@ impl Landscape {
         match self {
             Self::None => 0.0,
             Self::Relief(relief) => relief.highest_m(),
-            Self::City(city) => city.tallest_m,
         }
     }
 }
@@ -81,13 +73,7 @@ mod tests {
 
     #[test]
     fn every_kind_stays_below_its_highest_altitude_and_above_the_planet() {
-        for kind in [
-            LandscapeKind::None,
-            LandscapeKind::Hills,
-            LandscapeKind::Mountains,
-            LandscapeKind::Valley,
-            LandscapeKind::City,
-        ] {
+        for kind in [LandscapeKind::None, LandscapeKind::Hills, LandscapeKind::Mountains, LandscapeKind::Valley] {
             let landscape = landscape(kind);
             let mut highest = 0.0_f64;
             for k in 0..20_000 {
@@ -102,7 +88,7 @@ mod tests {
 
     #[test]
     fn outside_its_square_there_is_the_bare_planet() {
-        for kind in [LandscapeKind::Hills, LandscapeKind::Valley, LandscapeKind::City] {
+        for kind in [LandscapeKind::Hills, LandscapeKind::Valley] {
             for (x, y) in [(31e3, 0.0), (0.0, -30.1e3), (50e3, 50e3)] {
                 assert!(landscape(kind).ground_m(x, y).abs() < 1e-12, "{kind:?} ({x}, {y})");
             }
@@ -111,7 +97,7 @@ mod tests {
 
     #[test]
     fn another_seed_is_another_landscape() {
-        for kind in [LandscapeKind::Hills, LandscapeKind::Mountains, LandscapeKind::Valley, LandscapeKind::City] {
+        for kind in [LandscapeKind::Hills, LandscapeKind::Mountains, LandscapeKind::Valley] {
             let params = |seed| LandscapeParams { kind, seed, ..LandscapeParams::default() };
             let heights = |seed| {
                 let landscape = Landscape::new(&params(seed));

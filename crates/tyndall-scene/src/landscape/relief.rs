@@ -96,7 +96,7 @@ impl Relief {
                 valley_m: 0.5 * feature_m,
                 ..common
             },
-            LandscapeKind::None | LandscapeKind::Hills | LandscapeKind::City => common,
+            LandscapeKind::None | LandscapeKind::Hills => common,
         }
     }
 

@@ -13,8 +13,6 @@ choices! {
         Mountains = "mountains",
         /// A winding valley between two ranges of mountains, from south to north.
         Valley = "valley",
-        /// Blocks of buildings on a grid of streets, highest in the centre.
-        City = "city",
     }
 }
 
@@ -27,13 +25,11 @@ params! {
         seed: u32 = 1, ["1", 0..=65535, Linear], "O'Neill 2014";
         /// Side of the square that the landscape fills.
         size_km: f64 = 60.0, ["km", 1.0..=400.0, Log], "design";
-        /// Height of high peaks above the planet's level. Used by hills, mountains and the valley.
+        /// Height of high peaks above the planet's level.
         height_m: f64 = 1500.0, ["m", 10.0..=6000.0, Log], "design";
-        /// Width of a hill or a mountain, or of the valley from crest to crest. Used by hills, mountains and the valley.
+        /// Width of a hill or a mountain, or of the valley from crest to crest.
         feature_km: f64 = 6.0, ["km", 0.5..=50.0, Log], "Musgrave et al. 1989";
-        /// Altitude above which gentle slopes carry snow. Used by hills, mountains and the valley.
+        /// Altitude above which gentle slopes carry snow.
         snow_line_m: f64 = 1800.0, ["m", 0.0..=9000.0, Linear], "design";
-        /// Height of the tallest buildings. Used by the city.
-        building_m: f64 = 180.0, ["m", 5.0..=800.0, Log], "design";
     }
 }

@@ -47,6 +47,13 @@ params! {
         table_azimuths: u32 = 96, ["1", 8..=256, Log], "Hillaire 2020";
         /// Steps of the integral along each ray of view.
         march_steps: u32 = 32, ["1", 8..=64, Log], "paper eq. (2)";
+        /// Columns of the volume of air in front of the camera, which things in the air are seen through. Raise it for very wide
+        /// views. Used with a landscape.
+        aerial_columns: u32 = 32, ["1", 4..=256, Log], "Hillaire 2020";
+        /// Rows of that volume. Raise it when the surface of fog shows stripes.
+        aerial_rows: u32 = 64, ["1", 4..=256, Log], "Hillaire 2020";
+        /// Farthest distance of that volume; what lies beyond is dimmed as if it were there.
+        aerial_distance_km: f64 = 200.0, ["km", 1.0..=1000.0, Log], "Hillaire 2020";
         /// Rings of the dome from horizon to zenith, denser at the horizon. Used in the vertex-dome mode.
         dome_rings: u32 = 48, ["1", 4..=256, Log], "paper section 2";
         /// Vertices in each ring of the dome. Used in the vertex-dome mode.
