@@ -33,10 +33,12 @@ impl VapourPattern {
                 (vapour.cover, vapour.bubble_radius_m, vapour.bubble_height_m) = (0.14, 1300.0, 4400.0);
                 (vapour.bubble_spread, vapour.base_m) = (0.4, 200.0);
                 (vapour.humidity, vapour.activation, vapour.extinction) = (0.2, 0.01, 0.04);
+                // Shear would lean the towers over within minutes.
+                (params.wind.ceiling_speed_m_s, params.wind.ceiling_from_deg) = (3.6, 240.0);
             }
             Self::SeaOfClouds => {
                 (grid.cell_m, grid.cells_up, grid.floor_m) = (60.0, 32, 800.0);
-                (vapour.cover, vapour.bubble_radius_m, vapour.bubble_height_m) = (1.0, 1100.0, 1000.0);
+                (vapour.cover, vapour.bubble_radius_m, vapour.bubble_height_m) = (1.0, 900.0, 1000.0);
                 (vapour.bubble_spread, vapour.base_m) = (0.6, 180.0);
                 (vapour.humidity, vapour.activation, vapour.extinction) = (0.2, 0.02, 0.04);
             }
@@ -61,9 +63,14 @@ pub fn bubbles(params: &CloudParams) -> Vec<Ellipsoid> {
         VapourPattern::Towering => layout.towers(),
         VapourPattern::Stratocumulus => layout.closed_cells(),
         VapourPattern::SeaOfClouds => {
-            // Overlapping bubbles: a mean of two above every place leaves no hole that the rule would not close.
-            let mut all = layout.scattered(layout.count(2.0));
+            // A thin deck without holes, and swells that stand out of it over half of the sky.
+            let mut all = layout.scattered(layout.count(0.15));
+            let swells = all.len();
             all.extend(layout.closed_cells());
+            all.extend(layout.scattered(layout.count(0.6)).into_iter().skip(swells));
+            for bubble in &mut all[swells..] {
+                bubble.radii_cells[2] = (0.4 * bubble.radii_cells[2]).max(1.0);
+            }
             all.truncate(MAX_BUBBLES);
             all
         }
