@@ -1,5 +1,5 @@
 // Fills the table of sunlight and skylight on surfaces. One altitude and sun per invocation.
-// Twin: tyndall_scattering::sky_light. In the single-scattering mode the sky is as bright in all directions as its
+// Twin: tyndall_scattering::sky_light. Where the table of orders does not serve surfaces the sky is as bright in all directions as its
 // irradiance on level ground says, above a ground that is lit by it and the sun.
 // @import sky/column_lookup.wgsl
 // @import sky/ground_light.wgsl
@@ -26,6 +26,11 @@ fn light_of_sun(h: f32, mu_sun: f32) -> Spectrum {
     let visible = clamp(0.5 + 0.5 * (mu_sun - horizon) / sin(sky_view.sun_angular_radius), 0.0, 1.0);
     let columns = columns_to_top(h, max(mu_sun, horizon));
     return spectrum_scale(spectrum_mul(atmosphere.solar_irradiance, atmosphere_transmittance(columns)), visible);
+}
+
+/// Factor on the light of the table of orders; 0 where it does not serve surfaces.
+fn light_factor() -> f32 {
+    return orders.brightness * f32(orders.lights_surfaces);
 }
 
 /// A harmonic of the radiance between the table's nodes.
@@ -57,7 +62,7 @@ fn light_of_orders(id: vec2<u32>, h: f32, mu_sun: f32) {
             if (l == 3u) { third = spectrum_add(third, about_sun); }
             if (l == 4u) { fourth = spectrum_add(fourth, about_sun); }
             if (l != 3u) {
-                let scattered = spectrum_scale(light, LIGHT_COSINE_MOMENTS[l] * orders.brightness);
+                let scattered = spectrum_scale(light, LIGHT_COSINE_MOMENTS[l] * light_factor());
                 light_store(id, layer, spectrum_add(scattered, light_of_uniform_sky(layer, sky, ground)), 1.0);
                 layer += 1u;
             }
@@ -65,14 +70,14 @@ fn light_of_orders(id: vec2<u32>, h: f32, mu_sun: f32) {
     }
     let ratio = Spectrum(clamp(fourth.lo / max(third.lo, vec4<f32>(1e-20)), vec4<f32>(0.0), vec4<f32>(1.0)), clamp(fourth.hi / max(third.hi, vec4<f32>(1e-20)), vec4<f32>(0.0), vec4<f32>(1.0)));
     let lobe = spectrum_mul(fourth, spectrum_mul(ratio, ratio));
-    light_store(id, layer, lobe, 13.0 / (4.0 * LIGHT_PI) * LIGHT_COSINE_MOMENT_6 * orders.brightness);
+    light_store(id, layer, lobe, 13.0 / (4.0 * LIGHT_PI) * LIGHT_COSINE_MOMENT_6 * light_factor());
 }
 
-/// A uniform sky over a uniform ground, by light scattered once: the harmonic of a layer, 0 with all orders.
+/// A uniform sky over a uniform ground, by light scattered once: the harmonic of a layer, 0 where the table of orders serves.
 fn light_of_uniform_sky(layer: u32, sky: Spectrum, ground: Spectrum) -> Spectrum {
     let sum = select(0.0, 0.5 / ORDERS_NORMS[0], layer == 1u);
     let difference = select(0.0, 0.5 / ORDERS_NORMS[1], layer == 2u);
-    let single = select(1.0, 0.0, orders.brightness > 0.0);
+    let single = select(1.0, 0.0, light_factor() > 0.0);
     return spectrum_add(spectrum_scale(sky, single * (sum + difference)), spectrum_scale(ground, single * (sum - difference)));
 }
 

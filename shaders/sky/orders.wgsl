@@ -20,7 +20,7 @@ struct Orders {
     lowest_mu_sun: f32,            // zenith cosine of the lowest sun
     haze_even: u32,                // intervals of altitude in the even part of the haze
     haze_thinning: u32,            // intervals where it thins out; 0 without haze
-    padding: u32,
+    lights_surfaces: u32,          // 1 if surfaces too are lit by the table, 0 if by light scattered once
 }
 @group(0) @binding(10) var<uniform> orders: Orders;
 

@@ -93,6 +93,24 @@ fn the_orders_table_of_the_gpu_is_the_one_of_the_cpu() {
     }
 }
 
+/// Largest difference of the diffuse sky of the last frame from the one of a table, as a share.
+fn worst_of_diffuse_sky(studio: &Studio, scene: &Scene, marcher: &Marcher, source: &SourceTable) -> f64 {
+    let mu_sun = scene.sun_direction().expect("a sun").elevation_rad.sin();
+    let texture = studio.renderer.tables().sky_view_diffuse();
+    let size = texture.size_px().map(|side| side as usize);
+    let want = SkyDiffuseTable::new(marcher, source, (scene.camera.altitude_m, mu_sun), size);
+    let bytes = studio.gpu.read_texture(texture).unwrap_or_else(|error| panic!("{error}"));
+    let got: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+    let brightest = want.texels().flatten().fold(0.0, f64::max);
+    assert!(brightest > 0.0, "the sky is not black");
+    let mut worst = 0.0_f64;
+    for (got, want) in got.iter().zip(want.texels()) {
+        let scale = want.iter().copied().fold(1e-3 * brightest, f64::max);
+        worst = (0..3).map(|c| (f64::from(got[c]) - want[c]).abs() / scale).fold(worst, f64::max);
+    }
+    worst
+}
+
 #[test]
 fn the_diffuse_sky_of_the_gpu_is_the_one_of_the_cpu() {
     let mut studio = Studio::new();
@@ -104,21 +122,37 @@ fn the_diffuse_sky_of_the_gpu_is_the_one_of_the_cpu() {
         studio.shoot(&scene, [8, 8]);
         let marcher = Marcher::new(model(&scene), scene.sky.march_steps as usize / 4).expect("eight wavelengths");
         let source = SourceTable::new(&marcher, &OrdersQuality::preview());
-        let mu_sun = scene.sun_direction().expect("a sun").elevation_rad.sin();
-        let texture = studio.renderer.tables().sky_view_diffuse();
-        let size = texture.size_px().map(|side| side as usize);
-        let want = SkyDiffuseTable::new(&marcher, &source, (scene.camera.altitude_m, mu_sun), size);
-        let bytes = studio.gpu.read_texture(texture).unwrap_or_else(|error| panic!("{error}"));
-        let got: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
-        let brightest = want.texels().flatten().fold(0.0, f64::max);
-        let mut worst = 0.0_f64;
-        for (got, want) in got.iter().zip(want.texels()) {
-            let scale = want.iter().copied().fold(1e-3 * brightest, f64::max);
-            worst = (0..3).map(|c| (f64::from(got[c]) - want[c]).abs() / scale).fold(worst, f64::max);
-        }
-        println!("diffuse sky of {preset}, GPU against CPU: worst {worst:.1e}, brightest {brightest:.1e} cd/m^2");
-        assert!(brightest > 0.0 && worst < TARGET, "{preset}: {worst:.1e}");
+        let worst = worst_of_diffuse_sky(&studio, &scene, &marcher, &source);
+        println!("diffuse sky of {preset}, GPU against CPU: worst {worst:.1e}");
+        assert!(worst < TARGET, "{preset}: {worst:.1e}");
     }
+}
+
+/// The table of light on level ground of a scene.
+fn light_on_ground(studio: &mut Studio, scene: &Scene) -> Vec<f32> {
+    studio.shoot(scene, [8, 8]);
+    let texture = studio.renderer.tables().irradiance();
+    let bytes = studio.gpu.read_texture(texture).unwrap_or_else(|error| panic!("{error}"));
+    bytemuck::pod_collect_to_vec(&bytes)
+}
+
+#[test]
+fn the_second_order_by_eight_directions_is_in_the_sky_of_the_gpu_and_not_on_the_ground() {
+    let mut studio = Studio::new();
+    let small = [("sky.table_azimuths", "64"), ("sky.table_elevations", "64"), ("sky.orders", "nishita-1996")];
+    for preset in ["noon", "sunset"] {
+        let scene = scene(preset, &small);
+        studio.shoot(&scene, [8, 8]);
+        let marcher = Marcher::new(model(&scene), scene.sky.march_steps as usize / 4).expect("eight wavelengths");
+        let source = SourceTable::new(&marcher, &OrdersQuality::nishita1996());
+        let worst = worst_of_diffuse_sky(&studio, &scene, &marcher, &source);
+        println!("sky of {preset} by eight directions, GPU against CPU: worst {worst:.1e}");
+        assert!(worst < TARGET, "{preset}: {worst:.1e}");
+    }
+    let mut scene = scene("noon", &small);
+    let eight = light_on_ground(&mut studio, &scene);
+    scene.set_text("sky.orders", "single").expect("a valid change");
+    assert_eq!(eight, light_on_ground(&mut studio, &scene), "the ground is lit as by one order");
 }
 
 #[test]

@@ -187,7 +187,7 @@ fn orders() -> (&'static str, StructLayout) {
             lowest_mu_sun,
             haze_even,
             haze_thinning,
-            padding,
+            lights_surfaces,
         }),
     )
 }

@@ -15,7 +15,7 @@ use tyndall_scattering::{
     orders::OrdersQuality,
     validate::{Report, ValidateOptions, validate},
 };
-use tyndall_scene::{OrdersDetail, Scene};
+use tyndall_scene::{Orders, OrdersDetail, Scene};
 
 /// Time between two signs of progress.
 const TELL_EVERY: Duration = Duration::from_millis(100);
@@ -64,9 +64,10 @@ pub(crate) struct Subject {
 impl Subject {
     /// The sky of a scene; `None` when it has no sun.
     pub(crate) fn of(scene: &Scene) -> Option<Self> {
-        let quality = match scene.sky.orders_detail {
-            OrdersDetail::Preview => OrdersQuality::preview(),
-            OrdersDetail::Best => OrdersQuality::best(),
+        let quality = match (scene.sky.orders, scene.sky.orders_detail) {
+            (Orders::Nishita1996, _) => OrdersQuality::nishita1996(),
+            (Orders::Single | Orders::All, OrdersDetail::Preview) => OrdersQuality::preview(),
+            (Orders::Single | Orders::All, OrdersDetail::Best) => OrdersQuality::best(),
         };
         let mu_sun = scene.sun_direction().ok()?.elevation_rad.sin();
         Some(Self { model: scene.model(), quality, altitude_m: scene.camera.altitude_m, mu_sun })

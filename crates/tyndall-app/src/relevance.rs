@@ -30,6 +30,9 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
         ("sky", "orders_detail") if scene.sky.orders == Orders::Single => {
             Some("Light counts that was scattered once; set Orders to all.")
         }
+        ("sky", "orders_detail") if scene.sky.orders == Orders::Nishita1996 => {
+            Some("The second order by eight directions has one detail; set Orders to all.")
+        }
         ("sky", "dome_rings" | "dome_segments") if scene.sky.mode != SkyMode::VertexDome => {
             Some("The sky is computed at every pixel; set Mode to vertex-dome.")
         }

@@ -168,7 +168,12 @@ struct Sky {
 impl Sky {
     fn new(question: &Question) -> Option<Self> {
         let marcher = Marcher::new(question.model.clone(), PANELS).ok()?;
-        let source = (question.orders == Orders::All).then(|| source(&marcher));
+        let quality = match question.orders {
+            Orders::Single => None,
+            Orders::Nishita1996 => Some(OrdersQuality::nishita1996()),
+            Orders::All => Some(OrdersQuality::preview()),
+        };
+        let source = quality.map(|quality| source(&marcher, &quality));
         Some(Self { orders: question.orders, marcher, source })
     }
 
@@ -213,9 +218,9 @@ impl Sky {
     }
 }
 
-/// The table of all orders, on one thread: frames are drawn meanwhile.
-fn source(marcher: &Marcher) -> SourceTable {
-    let make = || SourceTable::new(marcher, &OrdersQuality::preview());
+/// The table of orders, on one thread: frames are drawn meanwhile.
+fn source(marcher: &Marcher, quality: &OrdersQuality) -> SourceTable {
+    let make = || SourceTable::new(marcher, quality);
     match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
         Ok(pool) => pool.install(make),
         Err(_no_thread) => make(),

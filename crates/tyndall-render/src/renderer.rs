@@ -248,6 +248,7 @@ fn pixel_angle(frame: &gpu_data::Frame) -> f64 {
 fn orders_quality(scene: &Scene) -> Option<OrdersQuality> {
     match (scene.sky.orders, scene.sky.orders_detail) {
         (Orders::Single, _) => None,
+        (Orders::Nishita1996, _) => Some(OrdersQuality::nishita1996()),
         (Orders::All, OrdersDetail::Preview) => Some(OrdersQuality::preview()),
         (Orders::All, OrdersDetail::Best) => Some(OrdersQuality::best()),
     }

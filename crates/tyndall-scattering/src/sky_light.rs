@@ -8,7 +8,7 @@
 //!
 //! Accuracy: 3 % for any slope under suns from 70 to 5 degrees high, 3.5 % under one in the zenith, the test below; with twice the aerosol 4 %, of
 //! which 1.5 % come from the directions in which the source table samples the aureole. Where only one order of scattering is wanted,
-//! renderers take [`IrradianceTable`](crate::irradiance_table::IrradianceTable) as a uniform sky over a uniform ground.
+//! or the table knows eight directions ([`OrdersMethod::Nishita1996`](crate::orders::OrdersMethod::Nishita1996)), renderers take [`IrradianceTable`](crate::irradiance_table::IrradianceTable) as a uniform sky over a uniform ground.
 //! WGSL: `shaders/sky/light_*.wgsl`.
 
 use std::f64::consts::PI;

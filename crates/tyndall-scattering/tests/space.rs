@@ -14,7 +14,6 @@ fn limb_deg(h_m: f64, tangent_m: f64) -> f64 {
 }
 
 #[test]
-#[expect(clippy::print_stdout, reason = "a test reports what it measured")]
 fn the_tables_are_right_from_ten_kilometres_and_from_space() {
     let atmosphere = parse_atmosphere(include_str!("data/atmosphere_csm8.txt")).expect("a valid file");
     let tables = TableSky::new(&atmosphere, &OrdersQuality::best()).expect("eight wavelengths");

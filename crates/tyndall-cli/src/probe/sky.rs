@@ -52,6 +52,9 @@ pub enum Detail {
     /// As for pictures
     #[default]
     Best,
+    /// Not finer: the second order by eight directions alone, as in Nishita et al. 1996
+    #[value(name = "nishita-1996")]
+    Nishita1996,
 }
 
 impl Detail {
@@ -61,6 +64,16 @@ impl Detail {
         match self {
             Self::Preview => OrdersQuality::preview(),
             Self::Best => OrdersQuality::best(),
+            Self::Nishita1996 => OrdersQuality::nishita1996(),
+        }
+    }
+
+    /// What the tables hold, in words.
+    fn method(self) -> &'static str {
+        match self {
+            Self::Preview => "all orders, tables in preview detail",
+            Self::Best => "all orders, tables in best detail",
+            Self::Nishita1996 => "two orders by eight directions, tables",
         }
     }
 }
@@ -221,7 +234,7 @@ impl Probe<'_> {
         } else if *reference {
             format!("tyndall {version}, probe sky: all orders, Monte-Carlo with {paths} paths a direction, seed {seed}")
         } else {
-            format!("tyndall {version}, probe sky: all orders, tables in {detail:?} detail").to_lowercase()
+            format!("tyndall {version}, probe sky: {}", detail.method())
         }
     }
 

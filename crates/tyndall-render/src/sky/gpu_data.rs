@@ -5,11 +5,11 @@ use tyndall_scattering::Atmosphere as Model;
 use tyndall_scattering::ScatteringError;
 use tyndall_scattering::atmosphere::{AEROSOL, AIR, HAZE, OZONE};
 use tyndall_scattering::medium::Profile;
-use tyndall_scattering::orders::OrdersQuality;
 use tyndall_scattering::orders::basis::MAX_DEGREE;
 use tyndall_scattering::orders::directions::gauss_legendre;
 use tyndall_scattering::orders::media::ScatteringMedia;
 use tyndall_scattering::orders::nodes::Nodes;
+use tyndall_scattering::orders::{OrdersMethod, OrdersQuality};
 use tyndall_scattering::params::GroundPattern;
 use tyndall_scattering::phase::Phase;
 use tyndall_scattering::sky_view_map::{ROWS_PER_ROW_BELOW, horizon_elevation};
@@ -92,7 +92,7 @@ pub struct Orders {
     pub lowest_mu_sun: f32,
     pub haze_even: u32,
     pub haze_thinning: u32,
-    pub padding: u32,
+    pub lights_surfaces: u32,
 }
 
 /// Twin of `SkyLight` in `shaders/sky/light.wgsl`; units and meanings there.
@@ -142,7 +142,7 @@ impl Orders {
             lowest_mu_sun: nodes.lowest_mu_sun() as f32,
             haze_even: nodes.haze().even as u32,
             haze_thinning: nodes.haze().thinning as u32,
-            padding: 0,
+            lights_surfaces: u32::from(quality.method == OrdersMethod::Harmonics),
         }
     }
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use tyndall_core::table_store::TableStore;
 use tyndall_gpu::wgpu::BufferUsages;
 use tyndall_gpu::{Buffer, Gpu, Texture};
-use tyndall_scattering::orders::OrdersQuality;
+use tyndall_scattering::orders::{OrdersMethod, OrdersQuality};
 use tyndall_scattering::{Atmosphere as Model, ScatteringError};
 
 use super::building::{TableBuilding, TableProgress, Wake};
@@ -151,11 +151,16 @@ impl OrdersTable {
             return Ok(());
         }
         self.invalidate();
-        if self.by_shaders {
+        if self.is_for_shaders(wanted) {
             self.fill_on_gpu(gpu, columns, model, &wanted.quality)
         } else {
             self.fill_on_cpu(gpu, model, &wanted.quality)
         }
+    }
+
+    /// Whether the shaders make this table; they do not know eight directions, which the CPU has in a moment.
+    fn is_for_shaders(&self, wanted: &Wanted) -> bool {
+        self.by_shaders && wanted.quality.method == OrdersMethod::Harmonics
     }
 
     /// Takes in what has been made meanwhile and sees to what is still missing.
@@ -166,9 +171,10 @@ impl OrdersTable {
         (model, wanted): (&Model, &Wanted),
         wake: &Wake,
     ) -> Result<(), RenderError> {
-        if self.by_shaders {
+        if self.is_for_shaders(wanted) {
             self.advance_gpu(gpu, columns, (model, wanted))?;
         } else {
+            self.under_way = None;
             if let Some(finished) = self.cpu.take() {
                 self.show(gpu, finished)?;
             }

@@ -199,12 +199,14 @@ mod tests {
     use std::collections::BTreeMap;
     use std::time::Duration;
 
+    use tyndall_scattering::orders::OrdersMethod;
     use tyndall_scattering::params::{AtmosphereParams, GroundParams};
 
     use super::*;
 
     /// Small enough for a test, with every part that a table has.
     const QUALITY: OrdersQuality = OrdersQuality {
+        method: OrdersMethod::Harmonics,
         altitudes: 4,
         haze_altitudes: 0,
         suns_above: 4,

@@ -17,7 +17,7 @@ use super::field::{DARK, Field, Light, add_scaled};
 use super::media::ScatteringMedia;
 use super::nodes::Nodes;
 use super::path::{GroundEnd, Path, narrow, widen};
-use crate::geometry::{Ray, horizon_mu, mu_along};
+use crate::geometry::{Ray, distance_to_ground, horizon_mu, mu_along};
 use crate::march::Marcher;
 use crate::single_scattering::ray_end;
 
@@ -44,12 +44,22 @@ impl<'a> OrderLoop<'a> {
 
     /// Light scattered once, and sunlight from the ground.
     pub(crate) fn first(&self) -> Field {
-        let coarse = Marcher { panels: self.quality.panels, ..self.marcher.clone() };
-        let dark = Field::dark(self.nodes, 0);
+        let Once { marcher: coarse, dark, .. } = self.once();
         self.project(|h_m, zenith| {
             let path = self.path(&dark, h_m, zenith.mu);
-            self.around(h_m, zenith, |ray| self.single(&coarse, &path, ray))
+            self.around(h_m, zenith, |ray| self.single(&coarse, path.ground, ray))
         })
+    }
+
+    /// Light scattered once, ray by ray.
+    pub(crate) fn once(&self) -> Once<'_> {
+        let marcher = Marcher { panels: self.quality.panels, ..self.marcher.clone() };
+        Once { orders: self, marcher, dark: Field::dark(self.nodes, 0) }
+    }
+
+    /// Nodes of the table.
+    pub(crate) fn nodes(&self) -> &Nodes {
+        &self.nodes
     }
 
     /// The order after `field`.
@@ -85,13 +95,13 @@ impl<'a> OrderLoop<'a> {
         Path::new(self.marcher, &self.media, field, (h_m, mu, end), self.quality.panels)
     }
 
-    fn single(&self, coarse: &Marcher, path: &Path, ray: &Ray) -> Light {
+    fn single(&self, coarse: &Marcher, ground: Option<GroundEnd>, ray: &Ray) -> Light {
         let parts = coarse.scattered_parts(ray);
         let phases = self.marcher.atmosphere.phases(ray.nu);
         let mut light = narrow(std::array::from_fn::<f64, WAVELENGTH_COUNT, _>(|k| {
             phases.iter().zip(&parts).map(|(phase, part)| phase * part[k]).sum()
         }));
-        if let Some(end) = path.ground {
+        if let Some(end) = ground {
             let mu_sun = self.mu_sun_at_ground(ray, &end);
             let irradiance = self.marcher.sun_on_ground(mu_sun);
             add_scaled(&mut light, &self.reflected(&end, &narrow(irradiance)), 1.0);
@@ -148,6 +158,23 @@ impl<'a> OrderLoop<'a> {
             field.add_zenith(*altitude, zenith.mu, projected);
         }
         field
+    }
+}
+
+/// Light scattered once, and sunlight from the ground, along single rays.
+pub(crate) struct Once<'a> {
+    orders: &'a OrderLoop<'a>,
+    /// With the panels of the table.
+    pub(crate) marcher: Marcher,
+    dark: Field,
+}
+
+impl Once<'_> {
+    /// Radiance (W/m^2/sr/nm) at the start of a ray inside the atmosphere.
+    pub(crate) fn radiance(&self, ray: &Ray) -> Light {
+        let meets_ground = distance_to_ground(self.marcher.atmosphere.planet_radius_m, ray.h_m, ray.mu).is_some();
+        let ground = meets_ground.then(|| self.orders.path(&self.dark, ray.h_m, ray.mu)).and_then(|path| path.ground);
+        self.orders.single(&self.marcher, ground, ray)
     }
 }
 

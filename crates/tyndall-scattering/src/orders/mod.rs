@@ -7,6 +7,8 @@
 //! only another medium or ground needs a new one.
 //!
 //! Accuracy against Monte-Carlo: tests of this crate. Cost: one to three seconds of one core at [`OrdersQuality::best`].
+//! For comparison the table can hold what Nishita et al. 1996 knew of it ([`OrdersMethod::Nishita1996`]).
+//!
 //! Not done: polarisation, and refraction. WGSL: `shaders/sky/orders_*.wgsl`.
 
 pub mod basis;
@@ -15,6 +17,7 @@ pub mod directions;
 pub mod field;
 pub mod media;
 pub mod moments;
+mod nishita1996;
 pub mod nodes;
 mod path;
 mod quality;
@@ -23,5 +26,5 @@ mod source;
 mod tests;
 
 pub use field::Field;
-pub use quality::OrdersQuality;
+pub use quality::{OrdersMethod, OrdersQuality};
 pub use source::{SourceTable, diffuse_radiance, diffuse_scattered, radiance_by_order};

@@ -7,10 +7,21 @@ use crate::Atmosphere;
 const ORDERS_PER_DEPTH: f64 = 1.0;
 const MOST_ORDERS_OF_HAZE: f64 = 24.0;
 
+/// What the source table holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OrdersMethod {
+    /// All orders, by spherical harmonics of the light in all directions.
+    Harmonics,
+    /// The first order in eight directions, for a second one in pictures: Nishita et al. 1996.
+    Nishita1996,
+}
+
 /// Sizes of the source table and of the quadratures that fill it. Time grows with the product of altitudes, suns,
 /// directions, steps and orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OrdersQuality {
+    /// What the table holds.
+    pub method: OrdersMethod,
     /// Altitudes of the table, from the ground to the top, quadratically dense at the ground; at least 3.
     pub altitudes: usize,
     /// How many of these altitudes lie in haze; 0 without haze.
@@ -36,6 +47,7 @@ impl OrdersQuality {
     #[must_use]
     pub const fn best() -> Self {
         Self {
+            method: OrdersMethod::Harmonics,
             altitudes: 24,
             haze_altitudes: 0,
             suns_above: 24,
@@ -52,6 +64,7 @@ impl OrdersQuality {
     #[must_use]
     pub const fn preview() -> Self {
         Self {
+            method: OrdersMethod::Harmonics,
             altitudes: 16,
             haze_altitudes: 0,
             suns_above: 14,
@@ -62,6 +75,13 @@ impl OrdersQuality {
             orders: 4,
             degree: MAX_DEGREE,
         }
+    }
+
+    /// The second order by eight directions, on as many altitudes as in Nishita et al. 1996; zenith angles, azimuths and
+    /// orders do not count.
+    #[must_use]
+    pub const fn nishita1996() -> Self {
+        Self { method: OrdersMethod::Nishita1996, altitudes: 33, ..Self::best() }
     }
 
     /// The same for an atmosphere that may be hazy: with altitudes in the haze, and more orders the thicker it is, for there

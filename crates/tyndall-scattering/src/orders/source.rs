@@ -4,13 +4,14 @@ use std::f64::consts::PI;
 
 use tyndall_core::spectrum::{Spectrum, WAVELENGTH_COUNT};
 
-use super::OrdersQuality;
 use super::basis::{azimuth_parts, harmonic_index, zenith_parts};
 use super::build::OrderLoop;
-use super::field::{Field, Light, mix};
+use super::field::{DARK, Field, Light, mix};
 use super::media::ScatteringMedia;
+use super::nishita1996;
 use super::nodes::Place;
 use super::path::{Path, azimuth_between, widen};
+use super::{OrdersMethod, OrdersQuality};
 use crate::atmosphere::SCATTERER_COUNT;
 use crate::geometry::{Ray, mu_along};
 use crate::march::Marcher;
@@ -25,10 +26,15 @@ pub struct SourceTable {
 }
 
 impl SourceTable {
-    /// Computes all orders of scattering.
+    /// Computes all orders of scattering, or those that the method knows.
     #[must_use]
     pub fn new(marcher: &Marcher, quality: &OrdersQuality) -> Self {
         let orders = OrderLoop::new(marcher, quality);
+        if quality.method == OrdersMethod::Nishita1996 {
+            let all = nishita1996::first_order(&orders);
+            // The ground is lit by the sun and by light scattered once, which is in all.
+            return Self { media: orders.media, beyond_first: vec![DARK; all.irradiance.len()], all };
+        }
         let first = orders.first();
         let all = orders.sum(&first);
         let pairs = all.irradiance.iter().zip(&first.irradiance);

@@ -17,6 +17,8 @@ choices! {
     pub enum Orders {
         /// Once, as in equation (1) of the paper: dark horizons, black earth shadow.
         Single = "single",
+        /// Twice, the second time from eight directions: reference 7 of the paper.
+        Nishita1996 = "nishita-1996",
         /// Any number of times, by the air, the aerosol and the ground.
         All = "all",
     }
@@ -37,7 +39,7 @@ params! {
     pub struct SkyParams {
         /// Where the colour is evaluated: at every pixel, or as in the paper at the vertices of a dome.
         mode: SkyMode = SkyMode::PerPixel, "paper section 2; Hillaire 2020";
-        /// Whether light counts that was scattered once, as in the paper, or any number of times, as in nature.
+        /// Whether light counts that was scattered once, as in the paper, twice as its reference 7 has it (from eight directions, for air and sky; the ground and what stands on it are lit as by one), or any number of times, as in nature. Random walks (render --reference, validate) always count all.
         orders: Orders = Orders::All, "paper eq. (1); Nishita et al. 1996";
         /// How finely light that was scattered more than once is computed. Used with all orders.
         orders_detail: OrdersDetail = OrdersDetail::Best, "spherical harmonics of degree 4";
