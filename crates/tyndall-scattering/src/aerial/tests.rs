@@ -31,21 +31,22 @@ fn worst_errors(marcher: &Marcher, rays: &[(f64, f64)], distances_m: &[f64], far
     let source = SourceTable::new(marcher, &OrdersQuality::preview());
     let mut worst = [0.0_f64; 2];
     for sun_deg in [30.0_f64, 75.0, 88.0] {
-        for (h_m, zenith_deg) in rays {
-            for azimuth in [0.4, 2.2] {
-                let ray = Ray::from_angles(*h_m, zenith_deg.to_radians(), sun_deg.to_radians(), azimuth);
-                let slices = AerialSlices::new(marcher, Some(&source), &ray, far_m);
-                for distance_m in distances_m {
-                    let (got, want) = (slices.seen(*distance_m), exact(marcher, &source, &ray, *distance_m));
-                    for c in 0..3 {
-                        let light = (got.light[c] / want.light[c] - 1.0).abs();
-                        let transmittance = (got.transmittance[c] - want.transmittance[c]).abs();
-                        worst = [worst[0].max(light), worst[1].max(transmittance)];
-                        assert!(
-                            light < 0.03 && transmittance < 5e-3,
-                            "sun {sun_deg}, {h_m} m, {zenith_deg}, {distance_m} m, channel {c}: {got:?} {want:?}"
-                        );
-                    }
+        let towards = |(h_m, zenith_deg): &(f64, f64)| {
+            let [zenith, sun, h_m] = [zenith_deg.to_radians(), sun_deg.to_radians(), *h_m];
+            [0.4, 2.2].map(|azimuth| Ray::from_angles(h_m, zenith, sun, azimuth))
+        };
+        for ray in rays.iter().flat_map(towards) {
+            let slices = AerialSlices::new(marcher, Some(&source), &ray, far_m);
+            for distance_m in distances_m {
+                let (got, want) = (slices.seen(*distance_m), exact(marcher, &source, &ray, *distance_m));
+                for c in 0..3 {
+                    let light = (got.light[c] / want.light[c] - 1.0).abs();
+                    let transmittance = (got.transmittance[c] - want.transmittance[c]).abs();
+                    worst = [worst[0].max(light), worst[1].max(transmittance)];
+                    assert!(
+                        light < 0.03 && transmittance < 5e-3,
+                        "sun {sun_deg}, {ray:?}, {distance_m} m, channel {c}: {got:?} {want:?}"
+                    );
                 }
             }
         }

@@ -65,12 +65,10 @@ impl SourceTable {
         for (sun, to_sun) in sun.ends() {
             for (altitude, to_altitude) in altitude.ends() {
                 let harmonics = field.at(sun, altitude);
-                for l in 0..=field.degree {
-                    for (m, cosine) in azimuth.iter().enumerate().take(l + 1) {
-                        let index = harmonic_index(l, m);
-                        let weight = to_sun * to_altitude * zenith[index] * cosine;
-                        add_to_media(&mut sums, &self.media, l, &harmonics[index], weight);
-                    }
+                for (l, m) in (0..=field.degree).flat_map(|l| (0..=l).map(move |m| (l, m))) {
+                    let index = harmonic_index(l, m);
+                    let weight = to_sun * to_altitude * zenith[index] * azimuth[m];
+                    add_to_media(&mut sums, &self.media, l, &harmonics[index], weight);
                 }
             }
         }
