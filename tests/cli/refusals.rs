@@ -82,7 +82,7 @@ fn a_broken_scene_is_shown_with_its_line_and_a_caret() {
         ("format = 1\n[sun]\nelevation = 4\n", " --> a.toml:3:1", "did you mean `sun.elevation_deg`?"),
         ("format = 1\n[sun]\nelevation_deg = 91\n", " --> a.toml:3:17", "outside -90 to 90 deg"),
         ("format = 1\n[sun]\nelevation_deg = nan\n", " --> a.toml:3:17", "outside -90 to 90 deg"),
-        ("format = 1\n[moon]\n", " --> a.toml:2:2", "unknown group `moon`"),
+        ("format = 1\n[volcano]\n", " --> a.toml:2:2", "unknown group `volcano`"),
         ("format = 1\n[sun\n", " --> a.toml:2:", "error: "),
         ("format = 2\n", " --> a.toml:1:10", "format 1"),
     ] {

@@ -126,8 +126,8 @@ mod tests {
 
     #[test]
     fn a_filter_that_fits_nothing_is_refused_with_the_groups() {
-        let arguments = ParamsArguments { filter: Some("moon".to_owned()), markdown: false, json: false };
-        let sentence = run(&arguments).expect_err("no moon").to_string();
-        assert!(sentence.contains("`moon`") && sentence.contains("camera, sun"), "{sentence}");
+        let arguments = ParamsArguments { filter: Some("volcano".to_owned()), markdown: false, json: false };
+        let sentence = run(&arguments).expect_err("no volcano").to_string();
+        assert!(sentence.contains("`volcano`") && sentence.contains("camera, sun"), "{sentence}");
     }
 }
