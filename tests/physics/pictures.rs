@@ -69,7 +69,8 @@ fn a_manual_exposure_develops_each_pixel_by_the_published_formula() {
 fn the_automatic_exposure_is_that_of_the_metered_mean() {
     let mut studio = Studio::new();
     for preset in presets() {
-        let scene = scene(preset.name, &[("film.compensation_ev", "0"), ("sun.disc", "false")]);
+        let scene =
+            scene(preset.name, &[("film.exposure", "auto"), ("film.compensation_ev", "0"), ("sun.disc", "false")]);
         let target = studio.shoot(&scene, [96, 96]);
         let pixels = target.read_radiance(studio.gpu).expect("radiance");
         // The meter's floor, 2^-24 of a pre-exposed value.
