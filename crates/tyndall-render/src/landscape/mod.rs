@@ -2,7 +2,7 @@
 //!
 //! The heights are functions of the place (`tyndall_scene::landscape`), which the shaders compute too: for the vertices of a
 //! mesh of rings around the camera, and again, with their exact slope, at each pixel. Light comes from
-//! [`SkyLightTable`](crate::sky::SkyLightTable), shadows of terrain from a map of the whole square. Places lie on the curved
+//! [`SkyLightTable`], shadows of terrain from a map of the whole square. Places lie on the curved
 //! planet, so that the landscape meets the sky's horizon.
 //!
 //! Shadows do not see the planet's curvature (0.3 degrees over 30 km), nor is light that one slope throws on another.
