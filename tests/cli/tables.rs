@@ -23,7 +23,7 @@ fn the_parameters_are_listed_for_people_programs_and_documents() {
     assert_eq!(stdout(&["params"]).lines().count(), 2 * parameter_count(), "two lines a parameter");
     assert_eq!(json(&["params", "--json"]).as_array().map(Vec::len), Some(parameter_count()), "one object each");
     assert_eq!(stdout(&["params", "--markdown"]), markdown_table(), "the table of the documentation");
-    Place::new().run(&["params", "moon"]).refused(2, "no parameter's path contains `moon`");
+    Place::new().run(&["params", "volcano"]).refused(2, "no parameter's path contains `volcano`");
 }
 
 #[test]
