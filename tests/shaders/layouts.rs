@@ -80,26 +80,31 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
         moon(),
         stars(),
         ("Refraction", rust_layout!(Refraction { lift, horizon_elevation, padding0, padding1, padding2 })),
-        (
-            "SkyView",
-            rust_layout!(SkyView {
-                sun_direction,
-                observer_altitude_m,
-                limb_exponents,
-                horizon_elevation,
-                sun_angular_radius,
-                sun_visible,
-                panels,
-                table_size,
-                rows_below,
-                dome_rings,
-                dome_segments,
-                ground_pattern,
-                ground_tile_m,
-                padding,
-            }),
-        ),
+        sky_view(),
     ]
+}
+
+/// Twin of `SkyView`.
+fn sky_view() -> (&'static str, StructLayout) {
+    (
+        "SkyView",
+        rust_layout!(SkyView {
+            sun_direction,
+            observer_altitude_m,
+            limb_exponents,
+            horizon_elevation,
+            sun_angular_radius,
+            sun_visible,
+            panels,
+            table_size,
+            rows_below,
+            dome_rings,
+            dome_segments,
+            ground_pattern,
+            ground_tile_m,
+            padding,
+        }),
+    )
 }
 
 /// Twin of `Landscape`.

@@ -4,7 +4,7 @@
 //!   command line, sliders, tooltips and documentation.
 //! - [`rng`]: Philox4x32-10, a random number as a pure function of (seed, step, cell), and a cheap hash keyed by it.
 //! - [`grid`]: dense 2-D and 3-D arrays with a documented index order and linear interpolation.
-//! - [`array`]: named arrays, which carry a simulation's state to and from files.
+//! - [`mod@array`]: named arrays, which carry a simulation's state to and from files.
 //! - [`metaball`]: the field of the balls that clouds and smoke are made of, its columns and its mass.
 //! - [`primaries`]: colour spaces of linear RGB in files.
 //! - [`spectrum`]: the eight wavelengths of all light transport and their map to linear Rec.709.
