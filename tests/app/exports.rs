@@ -10,11 +10,11 @@ fn copied(program: &mut Program) -> String {
     program.get_by_role_and_label(Role::Button, "Copy as command line").click_accesskit();
     program.step();
     let commands = program.output().platform_output.commands.iter();
-    let texts = commands.filter_map(|command| match command {
+    let mut texts = commands.filter_map(|command| match command {
         OutputCommand::CopyText(text) => Some(text.clone()),
         _ => None,
     });
-    texts.last().expect("a copied text")
+    texts.next_back().expect("a copied text")
 }
 
 /// Opens a list and chooses.

@@ -13,8 +13,8 @@ fn point(program: &mut Program, x: f32, y: f32) {
 }
 
 fn luminance(program: &Program) -> f64 {
-    let labels = program.get_all_by_label_contains(" cd/m²").filter_map(|node| node.accesskit_node().value());
-    labels.filter_map(|label| label.trim_end_matches(" cd/m²").parse().ok()).next().expect("a number")
+    let mut labels = program.get_all_by_label_contains(" cd/m²").filter_map(|node| node.accesskit_node().value());
+    labels.find_map(|label| label.trim_end_matches(" cd/m²").parse().ok()).expect("a number")
 }
 
 #[test]
