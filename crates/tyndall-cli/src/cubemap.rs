@@ -9,20 +9,19 @@ mod write;
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
-use tyndall_gpu::{AdapterChoice, Gpu, GpuOptions};
+use tyndall_core::ParamSet as _;
+use tyndall_gpu::Gpu;
 use tyndall_io::atomic::check_writable;
 use tyndall_render::{CubeFace, FrameTarget, Renderer, View};
 use tyndall_scene::{ExposureMode, Scene};
 
-use crate::cache::CacheArguments;
 use crate::interrupt::Interrupt;
 use crate::light::{GroundName, SunName, UnitName, convert_pixels};
 use crate::progress::{Progress, ProgressFormat, Stage};
 use crate::render::frame::{Pixels, config, read, twice, wait};
 use crate::render::memory::check_budget;
-use crate::render::source;
 use crate::render::{FormatArguments, OutputFormat};
-use crate::values::{parse_bytes, parse_setting};
+use crate::scene_arguments::{DeviceArguments, SceneArguments};
 use crate::{Exit, Failure};
 
 pub use layout::Layout;
@@ -37,9 +36,6 @@ Faces: posx east, negx west, posy zenith, negy nadir, posz north, negz south,
 as Direct3D, Vulkan and OpenGL sample a cube with x east, y up, z north;
 worlds in which -z is north look up (x, y, -z).";
 
-/// Range of the exposure that a scene can have (EV at ISO 100).
-const EV100_RANGE: (f64, f64) = (-10.0, 25.0);
-
 /// Longest side of a face.
 const SIZE_MAX_PX: u32 = 8192;
 
@@ -47,8 +43,9 @@ const SIZE_MAX_PX: u32 = 8192;
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{}", Exit::table()))]
 pub struct CubemapArguments {
-    /// Scene file, or `preset:NAME` for a scene that comes with Tyndall
-    pub scene: PathBuf,
+    /// What to draw.
+    #[command(flatten)]
+    pub scene: SceneArguments,
     /// A folder for six EXR files, which is made if need be; or a file, .exr, .png or .jpg
     #[arg(short, long, value_name = "PLACE")]
     pub output: PathBuf,
@@ -67,18 +64,9 @@ pub struct CubemapArguments {
     /// What lies below the horizon
     #[arg(long, value_enum, value_name = "GROUND", default_value_t = GroundName::True)]
     pub ground: GroundName,
-    /// Change a parameter of the scene; may be repeated
-    #[arg(long, value_name = "GROUP.KEY=VALUE", value_parser = parse_setting)]
-    pub set: Vec<(String, String)>,
-    /// Graphics adapter: auto, software, an index or a part of its name (see `tyndall doctor`)
-    #[arg(long, value_name = "ADAPTER", default_value_t)]
-    pub adapter: AdapterChoice,
-    /// Most memory for the pictures, such as 8G; by default what the system has to spare
-    #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
-    pub max_memory: Option<u64>,
-    /// Whether tables are kept between runs.
+    /// What draws it.
     #[command(flatten)]
-    pub cache: CacheArguments,
+    pub device: DeviceArguments,
     /// How to report progress
     #[arg(long, value_name = "READER", value_enum, default_value_t)]
     pub progress: ProgressFormat,
@@ -92,6 +80,22 @@ struct Plan {
     format: OutputFormat,
     /// One path, or one for each face.
     paths: Vec<PathBuf>,
+    /// A folder that is to be made for them.
+    new_folder: Option<PathBuf>,
+}
+
+impl Plan {
+    /// Refuses places that cannot be written, before anything is drawn.
+    fn check_writable(&self) -> Result<(), Failure> {
+        let places = self.new_folder.as_ref().map_or(&self.paths[..], std::slice::from_ref);
+        Ok(places.iter().try_for_each(check_writable)?)
+    }
+
+    /// Makes the folder when there is something to put into it.
+    fn make_folder(&self) -> Result<(), Failure> {
+        let Some(folder) = &self.new_folder else { return Ok(()) };
+        Ok(std::fs::create_dir(folder).map_err(|error| tyndall_io::IoError::from_write(folder, error))?)
+    }
 }
 
 /// The faces in the computer's own memory, in the order of [`CubeFace::ALL`].
@@ -115,18 +119,17 @@ pub fn run(arguments: &CubemapArguments) -> Result<(), Failure> {
 }
 
 fn cubemap(arguments: &CubemapArguments, progress: &mut Progress) -> Result<(), Failure> {
-    let mut scene = source::load_with(&arguments.scene, &arguments.set)?;
+    let mut scene = arguments.scene.load()?;
     scene.sun.disc &= arguments.sun == SunName::Disc;
     let plan = plan(arguments)?;
-    for path in &plan.paths {
-        check_writable(path)?;
-    }
+    plan.check_writable()?;
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
     let cube = twice(
         || draw(arguments, &scene, plan.format, progress, &interrupt),
         |failure| progress.warn(&format!("{failure}; trying once more")),
     )?;
     progress.stage(Stage::File)?;
+    plan.make_folder()?;
     let adapter = cube.adapter.clone();
     let bytes = write::write(arguments, &scene, cube, &plan, (progress, &interrupt))?;
     let seconds = progress.seconds();
@@ -139,7 +142,7 @@ fn cubemap(arguments: &CubemapArguments, progress: &mut Progress) -> Result<(), 
     progress.finish(&sentence, facts)
 }
 
-/// Paths and format; makes the folder if one is asked for.
+/// Paths and format.
 fn plan(arguments: &CubemapArguments) -> Result<Plan, Failure> {
     let output = &arguments.output;
     let is_folder = output.is_dir() || output.extension().is_none();
@@ -166,10 +169,8 @@ fn plan(arguments: &CubemapArguments) -> Result<Plan, Failure> {
         let file = output.display();
         return Err(Failure::Usage(format!("--units concerns EXR files only, and {file} is none")));
     }
-    if is_folder && !output.is_dir() {
-        std::fs::create_dir(output).map_err(|error| tyndall_io::IoError::from_write(output, error))?;
-    }
-    Ok(Plan { format, paths })
+    let new_folder = (is_folder && !output.is_dir()).then(|| output.clone());
+    Ok(Plan { format, paths, new_folder })
 }
 
 fn draw(
@@ -181,12 +182,12 @@ fn draw(
 ) -> Result<Cube, Failure> {
     let stage = |stage: Stage| interrupt.check().and_then(|()| progress.stage(stage));
     stage(Stage::Device)?;
-    let gpu = Gpu::open(&GpuOptions { adapter: arguments.adapter.clone(), max_memory_bytes: arguments.max_memory })?;
+    let gpu = Gpu::open(&arguments.device.options())?;
     let (config, size_px) = (config(format), [arguments.size; 2]);
     check_budget(&gpu, size_px, format, config)?;
     stage(Stage::Pipelines)?;
     let mut renderer = Renderer::new(&gpu, config)?;
-    renderer.set_table_store(arguments.cache.store());
+    renderer.set_table_store(arguments.device.cache.store());
     let mut target = FrameTarget::new(&gpu, size_px, config)?;
     stage(Stage::Frame)?;
     let ev100 = renderer.meter_scene(&gpu, scene)?;
@@ -215,7 +216,8 @@ fn exposed(scene: &Scene, ev100: f64) -> Scene {
     scene.film.exposure = ExposureMode::Manual;
     // What was metered includes the compensation; a night darker than the range stays as dark as it is in pictures.
     scene.film.compensation_ev = 0.0;
-    scene.film.ev100 = ev100.clamp(EV100_RANGE.0, EV100_RANGE.1);
+    let range = scene.film.info().iter().find(|info| info.name == "ev100").map(|info| info.range.clone());
+    scene.film.ev100 = range.map_or(ev100, |range| ev100.clamp(*range.start(), *range.end()));
     scene
 }
 

@@ -11,19 +11,17 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 use tyndall_gpu::wgpu::DeviceType;
-use tyndall_gpu::{AdapterChoice, Gpu, GpuError, GpuOptions};
+use tyndall_gpu::{Gpu, GpuError};
 use tyndall_io::atomic::check_writable;
 use tyndall_render::environment::{Environment, EnvironmentOptions, PANORAMA_WIDTH_MIN_PX};
 use tyndall_render::{FrameFormat, FrameTarget, Renderer, RendererConfig};
 use tyndall_scene::Scene;
 
-use crate::cache::CacheArguments;
 use crate::interrupt::Interrupt;
 use crate::light::{GroundName, PrimariesName, SunName, UnitName, convert_pixels};
 use crate::progress::{Progress, ProgressFormat, Stage};
 use crate::render::frame::twice;
-use crate::render::source;
-use crate::values::{parse_bytes, parse_setting};
+use crate::scene_arguments::{DeviceArguments, SceneArguments};
 use crate::{Exit, Failure};
 
 use sidecar::Sidecar;
@@ -52,8 +50,9 @@ const CONFIG: RendererConfig =
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{}", Exit::table()))]
 pub struct HdriArguments {
-    /// Scene file, or `preset:NAME` for a scene that comes with Tyndall
-    pub scene: PathBuf,
+    /// What to draw.
+    #[command(flatten)]
+    pub scene: SceneArguments,
     /// File of light, .exr or .hdr; the sidecar has the same name with the ending .json
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
@@ -75,18 +74,9 @@ pub struct HdriArguments {
     /// Primaries of the colours
     #[arg(long, value_enum, value_name = "SPACE", default_value_t = PrimariesName::Rec709)]
     pub primaries: PrimariesName,
-    /// Change a parameter of the scene; may be repeated
-    #[arg(long, value_name = "GROUP.KEY=VALUE", value_parser = parse_setting)]
-    pub set: Vec<(String, String)>,
-    /// Graphics adapter: auto, software, an index or a part of its name (see `tyndall doctor`)
-    #[arg(long, value_name = "ADAPTER", default_value_t)]
-    pub adapter: AdapterChoice,
-    /// Most memory for the picture, such as 8G; by default what the system has to spare
-    #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
-    pub max_memory: Option<u64>,
-    /// Whether tables are kept between runs.
+    /// What draws it.
     #[command(flatten)]
-    pub cache: CacheArguments,
+    pub device: DeviceArguments,
     /// How to report progress
     #[arg(long, value_name = "READER", value_enum, default_value_t)]
     pub progress: ProgressFormat,
@@ -125,7 +115,7 @@ pub fn run(arguments: &HdriArguments) -> Result<(), Failure> {
 
 fn hdri(arguments: &HdriArguments, progress: &mut Progress) -> Result<(), Failure> {
     let format = HdriFormat::for_file(&arguments.output, arguments.half)?;
-    let scene = source::load_with(&arguments.scene, &arguments.set)?;
+    let scene = arguments.scene.load()?;
     let sidecar_path = arguments.sidecar_path();
     check_writable(&arguments.output)?;
     check_writable(&sidecar_path)?;
@@ -164,11 +154,11 @@ fn capture(
 ) -> Result<(Environment, String), Failure> {
     let stage = |stage: Stage| interrupt.check().and_then(|()| progress.stage(stage));
     stage(Stage::Device)?;
-    let gpu = Gpu::open(&GpuOptions { adapter: arguments.adapter.clone(), max_memory_bytes: arguments.max_memory })?;
+    let gpu = Gpu::open(&arguments.device.options())?;
     check_budget(&gpu, arguments.options().size_px()?)?;
     stage(Stage::Pipelines)?;
     let mut renderer = Renderer::new(&gpu, CONFIG)?;
-    renderer.set_table_store(arguments.cache.store());
+    renderer.set_table_store(arguments.device.cache.store());
     stage(Stage::Frame)?;
     let light = renderer.capture_environment(&gpu, scene, arguments.options())?;
     gpu.check()?;

@@ -3,7 +3,7 @@
 //! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`probe`], [`validate`], [`params`], [`schema`],
 //! [`presets`], [`doctor`]. What they share: [`exit`] (the
 //! codes that scripts and render farms go by), [`failure`] (which error ends with which code, and the one sentence that the
-//! user reads), [`values`] (what options take), [`interrupt`] (Ctrl-C and termination) and [`progress`].
+//! user reads), [`scene_arguments`] (scene and device), [`values`] (what options take), [`interrupt`] (Ctrl-C and termination) and [`progress`].
 //!
 //! Results go to stdout; progress, warnings and errors to stderr, so that pipes stay clean. With `--progress json` stdout
 //! carries one JSON object a line.
@@ -24,6 +24,7 @@ pub mod presets;
 pub mod probe;
 pub mod progress;
 pub mod render;
+pub mod scene_arguments;
 pub mod schema;
 pub mod validate;
 pub mod values;

@@ -15,14 +15,14 @@ pub(crate) mod write;
 use std::path::PathBuf;
 
 use serde_json::json;
-use tyndall_gpu::{AdapterChoice, GpuOptions, PassTiming};
+use tyndall_gpu::PassTiming;
 use tyndall_io::atomic::check_writable;
 use tyndall_scene::Scene;
 
-use crate::cache::CacheArguments;
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, ProgressFormat, Stage};
-use crate::values::{parse_bytes, parse_setting, parse_size_px};
+use crate::scene_arguments::{DeviceArguments, SceneArguments};
+use crate::values::parse_size_px;
 use crate::{Exit, Failure};
 
 pub use format::{Bits, CompressionName, FormatArguments, OutputFormat};
@@ -46,23 +46,15 @@ picture in sRGB.";
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{}", Exit::table()))]
 pub struct RenderArguments {
-    /// Scene file, or `preset:NAME` for a scene that comes with Tyndall
-    pub scene: PathBuf,
+    /// What to draw.
+    #[command(flatten)]
+    pub scene: SceneArguments,
     /// Picture file; its ending decides the format: .png, .exr, .jpg
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Size of the picture in pixels, in place of the scene's
     #[arg(long, value_name = "WxH", value_parser = parse_size_px)]
     pub size: Option<[u32; 2]>,
-    /// Change a parameter of the scene; may be repeated
-    #[arg(long, value_name = "GROUP.KEY=VALUE", value_parser = parse_setting)]
-    pub set: Vec<(String, String)>,
-    /// Graphics adapter: auto, software, an index or a part of its name (see `tyndall doctor`)
-    #[arg(long, value_name = "ADAPTER", default_value_t)]
-    pub adapter: AdapterChoice,
-    /// Most memory for the picture, such as 8G; by default what the system has to spare
-    #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
-    pub max_memory: Option<u64>,
     /// Compute sky and ground by Monte-Carlo on the CPU, without tables and GPU: slow, for comparison
     #[arg(long)]
     pub reference: bool,
@@ -73,9 +65,9 @@ pub struct RenderArguments {
     /// Seed of the walks; the same seed gives the same bits
     #[arg(long, value_name = "SEED", default_value_t = 1, requires = "reference")]
     pub seed: u64,
-    /// Whether tables are kept between runs.
+    /// What draws it.
     #[command(flatten)]
-    pub cache: CacheArguments,
+    pub device: DeviceArguments,
     /// How to report progress
     #[arg(long, value_name = "READER", value_enum, default_value_t)]
     pub progress: ProgressFormat,
@@ -105,8 +97,8 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
     let frame = if arguments.reference {
         reference::frame(&scene, format, (arguments.paths, arguments.seed), &interrupt, progress)?
     } else {
-        let options = GpuOptions { adapter: arguments.adapter.clone(), max_memory_bytes: arguments.max_memory };
-        let cache = arguments.cache;
+        let options = arguments.device.options();
+        let cache = arguments.device.cache;
         Job { scene: &scene, format, options: &options, cache, interrupt: &interrupt, progress }.run()?
     };
 
@@ -119,7 +111,7 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
 
 /// The scene with everything that the command line changes in it.
 fn scene_of(arguments: &RenderArguments) -> Result<Scene, Failure> {
-    let mut scene = source::load_with(&arguments.scene, &arguments.set)?;
+    let mut scene = arguments.scene.load()?;
     if let Some([width_px, height_px]) = arguments.size {
         scene.set("image.width_px", width_px.into())?;
         scene.set("image.height_px", height_px.into())?;

@@ -1,7 +1,6 @@
 //! `tyndall validate`: how far the tables are from Monte-Carlo on the user's own scene.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
 use clap::builder::RangedU64ValueParser;
 use serde_json::{Value, json};
@@ -11,8 +10,7 @@ use tyndall_scene::Scene;
 use crate::interrupt::Interrupt;
 use crate::probe::Detail;
 use crate::progress::{Progress, ProgressFormat};
-use crate::render::source;
-use crate::values::parse_setting;
+use crate::scene_arguments::SceneArguments;
 use crate::{Exit, Failure, output};
 
 const EXAMPLES: &str = "\
@@ -44,11 +42,9 @@ pub enum Validate {
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{}", Exit::table()))]
 pub struct ValidateSkyArguments {
-    /// Scene file, or `preset:NAME`
-    pub scene: PathBuf,
-    /// Change a parameter of the scene; may be repeated
-    #[arg(long, value_name = "GROUP.KEY=VALUE", value_parser = parse_setting)]
-    pub set: Vec<(String, String)>,
+    /// What to judge.
+    #[command(flatten)]
+    pub scene: SceneArguments,
     /// Directions of view
     #[arg(long, value_name = "N", default_value_t = ValidateOptions::default().directions,
         value_parser = RangedU64ValueParser::<usize>::new().range(1..=10_000))]
@@ -85,7 +81,7 @@ fn parse_percent(text: &str) -> Result<f64, String> {
 /// Everything that can be wrong with scene and options, and an error above its limit.
 pub fn run(arguments: &ValidateArguments) -> Result<(), Failure> {
     let Validate::Sky(arguments) = &arguments.what;
-    let scene = source::load_with(&arguments.scene, &arguments.set)?.grounded();
+    let scene = arguments.scene.load()?.grounded();
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
     let report = compare(arguments, &scene, &interrupt)?;
     let text = if arguments.json { format!("{}\n", to_json(&report)) } else { to_text(arguments, &scene, &report)? };
@@ -123,7 +119,7 @@ fn to_text(arguments: &ValidateSkyArguments, scene: &Scene, report: &Report) -> 
     let mut text = format!(
         "Tables against Monte-Carlo: {}, sun {elevation_deg:.2} deg high, observer at {} m\n\
          {} directions x {} wavelengths, {} paths a direction, seed {}; errors in %\n\n",
-        arguments.scene.display(),
+        arguments.scene.source.display(),
         scene.camera.altitude_m,
         report.rows.len(),
         report.wavelengths_nm.len(),
