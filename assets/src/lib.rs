@@ -8,6 +8,7 @@ pub const SCENES: &[(&str, &str)] = &[
     ("sunset", include_str!("../scenes/sunset.toml")),
     ("twilight", include_str!("../scenes/twilight.toml")),
     ("high-altitude", include_str!("../scenes/high-altitude.toml")),
+    ("cumulus", include_str!("../scenes/cumulus.toml")),
     ("hazy", include_str!("../scenes/hazy.toml")),
     ("desert-dust", include_str!("../scenes/desert-dust.toml")),
     ("mars", include_str!("../scenes/mars.toml")),

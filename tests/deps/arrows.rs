@@ -13,12 +13,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tyndall-clouds", &["tyndall-core"]),
     ("tyndall-dunes", &["tyndall-core"]),
     ("tyndall-io", &["tyndall-core"]),
-    ("tyndall-scene", &["tyndall-core", "tyndall-scattering", "tyndall-assets"]),
+    ("tyndall-scene", &["tyndall-core", "tyndall-scattering", "tyndall-clouds", "tyndall-assets"]),
     ("tyndall-gpu", &["tyndall-shaders", "tyndall-core"]),
     ("tyndall-render", &["tyndall-gpu", "tyndall-scene"]),
     ("tyndall-cli", &["tyndall-render", "tyndall-io"]),
     ("tyndall-app", &["tyndall-render", "tyndall-io"]),
-    ("tyndall", &["tyndall-render", "tyndall-io", "tyndall-clouds", "tyndall-dunes"]),
+    ("tyndall", &["tyndall-render", "tyndall-io", "tyndall-dunes"]),
     ("xtask", &[]),
 ];
 

@@ -6,6 +6,7 @@ use naga::{AddressSpace, Handle, Type, TypeInner};
 use tyndall_gpu::layout::StructLayout;
 use tyndall_gpu::rust_layout;
 use tyndall_render::aerial::gpu_data::Aerial;
+use tyndall_render::clouds::gpu_data::Clouds;
 use tyndall_render::frame::gpu_data::Frame;
 use tyndall_render::landscape::gpu_data::Landscape;
 use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyLight, SkyView};
@@ -73,6 +74,7 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
             }),
         ),
         ("Aerial", rust_layout!(Aerial { columns, rows, far_m, unit })),
+        clouds(),
         landscape(),
         orders(),
         ("SkyLight", rust_layout!(SkyLight { lowest_mu_sun, highest_mu_sun, top_altitude_m, lux })),
@@ -103,6 +105,28 @@ fn sky_view() -> (&'static str, StructLayout) {
             ground_pattern,
             ground_tile_m,
             padding,
+        }),
+    )
+}
+
+/// Twin of `Clouds`.
+fn clouds() -> (&'static str, StructLayout) {
+    (
+        "Clouds",
+        rust_layout!(Clouds {
+            size,
+            cell_m,
+            asymmetry,
+            forward_weight,
+            transport,
+            floor_m,
+            ceiling_m,
+            reach_m,
+            full_per_m,
+            wraps,
+            all_orders,
+            detail,
+            block_cells,
         }),
     )
 }

@@ -8,6 +8,7 @@
 //! - [`wind`]: a profile over height that moves everything by exact fractions of cells.
 //! - [`CloudDensity`]: the weighted mean over space and time, between steps too; [`ball_density`]: equation (3) on a grid.
 //! - [`sun_depth`]: the light volume, how much cloud lies between each cell and the sun.
+//! - [`mod@cloud_light`]: the light in every cell, what was scattered often included, for renderers that march.
 //! - [`Metaballs`]: lists of balls for splatting and for other programs.
 //! - [`mod@reference`]: single scattering by marching and all orders by Monte Carlo, to judge renderers by.
 //!
@@ -16,6 +17,7 @@
 pub mod automaton;
 pub mod ball_lattice;
 pub mod bit_field;
+pub mod cloud_light;
 mod density;
 pub mod dobashi2000;
 mod edges;
@@ -43,6 +45,7 @@ pub mod wind;
 pub use automaton::{Automaton, AutomatonConfig};
 pub use ball_lattice::{ball_density, ball_density_into};
 pub use bit_field::BitField;
+pub use cloud_light::{CloudLight, cloud_light};
 pub use density::CloudDensity;
 pub use edges::Edges;
 pub use ellipsoids::{Ellipsoid, EllipsoidSupply, HumidEllipsoids};

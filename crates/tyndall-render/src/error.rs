@@ -1,5 +1,6 @@
 //! What can go wrong while a frame is drawn.
 
+use tyndall_clouds::CloudError;
 use tyndall_gpu::GpuError;
 use tyndall_scattering::ScatteringError;
 use tyndall_scene::SceneError;
@@ -16,6 +17,9 @@ pub enum RenderError {
     /// Of the atmosphere.
     #[error(transparent)]
     Scattering(#[from] ScatteringError),
+    /// Of the clouds: a wind too fast for its grid.
+    #[error("clouds: {0}")]
+    Clouds(#[from] CloudError),
     /// The target was made for another renderer configuration.
     #[error("the frame target has {target:?}, the renderer draws {renderer:?}")]
     Configuration {

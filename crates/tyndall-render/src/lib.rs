@@ -1,9 +1,9 @@
-//! Renders Tyndall scenes with wgpu: sky, sun, ground, landscape, exposure and tone mapping.
+//! Renders Tyndall scenes with wgpu: sky, sun, ground, landscape, clouds, exposure and tone mapping.
 //!
 //! [`Renderer::render`] draws a [`tyndall_scene::Scene`] into a [`FrameTarget`]; the desktop program, the command line and
 //! the tests all call it. Nothing here opens windows or files.
 //!
-//! A frame is: tables that changed ([`sky`]) -> ground and sky into an HDR frame with reversed depth -> metering ->
+//! A frame is: tables that changed ([`sky`]) -> ground and sky into an HDR frame with reversed depth -> clouds over it -> metering ->
 //! exposure, tone map and dither into the picture ([`develop`]). The HDR frame holds linear Rec.709 radiance times the
 //! *pre-exposure*, so that half floats serve from noon to the end of twilight; [`FrameTarget::read_radiance`] takes it out
 //! again.
@@ -12,6 +12,7 @@
 //! groups, and the long-lived renderer that owns the pipelines.
 
 pub mod aerial;
+pub mod clouds;
 pub mod develop;
 pub mod dither;
 pub mod environment;

@@ -10,6 +10,7 @@ use tyndall_scattering::orders::OrdersQuality;
 use tyndall_scene::{Orders, OrdersDetail, Scene};
 
 use crate::aerial::{AerialRequest, AerialVolume};
+use crate::clouds::{CloudDrawData, CloudRenderer, CloudSurroundings};
 use crate::develop::DevelopRenderer;
 use crate::exposure::ev100_from_gain;
 use crate::frame::{frame_uniform, gpu_data};
@@ -18,7 +19,7 @@ use crate::sky::gpu_data::{Atmosphere as AtmosphereUniform, SkyView};
 use crate::sky::{OrdersRequest, SkyLightTable, SkyRenderer, SkyTables, TableBuilding, TableProgress};
 use crate::{FrameTarget, RenderError, RendererConfig, View};
 
-/// Passes that a frame can have: five tables, light on surfaces, the air, three of the landscape, scene, meter, development.
+/// Passes that a frame can have: five tables, light on surfaces, the air, three of the landscape, scene, clouds, meter, development.
 const TIMED_PASSES: u32 = 16;
 
 /// Draws scenes. All pipelines are made at once, so that a wrong shader shows at the start.
@@ -31,6 +32,7 @@ pub struct Renderer {
     air: AerialVolume,
     sky: SkyRenderer,
     landscape: LandscapeRenderer,
+    clouds: CloudRenderer,
     develop: DevelopRenderer,
     timer: PassTimer,
     pre_exposure: f32,
@@ -51,6 +53,7 @@ impl Renderer {
             air: AerialVolume::new(gpu)?,
             sky: SkyRenderer::new(gpu, config)?,
             landscape: LandscapeRenderer::new(gpu, config)?,
+            clouds: CloudRenderer::new(gpu, config)?,
             develop: DevelopRenderer::new(gpu, config)?,
             timer: PassTimer::new(gpu, TIMED_PASSES)?,
             pre_exposure: 1.0,
@@ -101,7 +104,11 @@ impl Renderer {
         self.tables.update_night(gpu, scene, &model, pixel_angle(&frame))?;
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
         let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), &frame)?;
+        let clouds = self.prepare_clouds(gpu, scene, target)?;
         self.record_scene(gpu, &mut encoder, (scene, landscape), target)?;
+        if let Some(clouds) = &clouds {
+            self.clouds.record(&mut encoder, &mut self.timer, clouds, target);
+        }
         if view != View::Panorama {
             let data = self.develop.prepare(gpu, &self.frame, target)?;
             self.develop.record(&mut encoder, &mut self.timer, &data, target);
@@ -160,6 +167,17 @@ impl Renderer {
         let surroundings =
             LandscapeSurroundings { frame: &self.frame, tables: &self.tables, light: &self.light, air: &self.air };
         self.landscape.prepare(gpu, encoder, &mut self.timer, (scene, view, size_px), surroundings)
+    }
+
+    /// Simulates and binds the clouds.
+    fn prepare_clouds(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        target: &FrameTarget,
+    ) -> Result<Option<CloudDrawData>, RenderError> {
+        let surroundings = CloudSurroundings { frame: &self.frame, tables: &self.tables };
+        self.clouds.prepare(gpu, scene, surroundings, target)
     }
 
     /// GPU time of each pass of the last frame; waits for it. Empty where the adapter has no timestamps.

@@ -4,7 +4,7 @@ use std::{io, path::PathBuf};
 
 use tyndall_core::ParamError;
 
-use crate::{Place, file};
+use crate::{Place, file, scene::MOST_CLOUD_CELLS};
 
 /// Why a scene was refused. Every message names the parameter by its path, its value, its unit and what is allowed.
 #[derive(Debug, thiserror::Error)]
@@ -66,6 +66,16 @@ pub enum SceneError {
         visibility_km: f64,
         /// Visibility of the air alone.
         clearest_km: f64,
+    },
+    /// More cells of cloud than a frame can hold.
+    #[error(
+        "`cloud_grid.cells_east` x `cells_north` x `cells_up` = {} x {} x {} cells is more than {MOST_CLOUD_CELLS}, the \
+         most that a picture takes; lower one of them",
+        .size[0], .size[1], .size[2]
+    )]
+    CloudCells {
+        /// Cells east, north and up.
+        size: [u32; 3],
     },
     /// The algorithm for the sun's position refused its input.
     #[error("the sun's position cannot be computed: {reason}")]
@@ -184,6 +194,9 @@ impl SceneError {
             }
             Self::VisibilityBeyondAir { .. } => {
                 ["atmosphere.aerosol_visibility_km", "atmosphere.air_density"].map(str::to_owned).to_vec()
+            }
+            Self::CloudCells { .. } => {
+                ["cloud_grid.cells_east", "cloud_grid.cells_north", "cloud_grid.cells_up"].map(str::to_owned).to_vec()
             }
             Self::SunPosition { .. } => vec!["sun.position".to_owned()],
             Self::FormatMissing | Self::FormatUnknown { .. } => vec!["format".to_owned()],

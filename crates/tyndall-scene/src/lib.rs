@@ -2,7 +2,8 @@
 //!
 //! - [`Scene`]: the groups of parameters, reached by path (`sun.elevation_deg`), checked and hashed.
 //! - [`SceneFile`]: scene files, read with exact error positions and written with the user's comments kept.
-//! - [`params`]: camera, sun, sky, landscape, film and image; atmosphere, haze and ground come from [`tyndall_scattering::params`].
+//! - [`params`]: camera, sun, sky, landscape, film and image; atmosphere, haze and ground come from [`tyndall_scattering::params`],
+//!   the matter of clouds from [`tyndall_clouds::params`].
 //! - [`presets`]: the scenes that come with Tyndall.
 //! - [`schema`] and [`markdown_table`]: the format for editors and for readers.
 //! - [`sun`]: direction of the sun from angles or from date, time and place.
@@ -30,13 +31,15 @@ pub use error::SceneError;
 pub use file::{FORMAT, MAX_BYTES, SceneFile};
 pub use hash::SceneHash;
 pub use params::{
-    CameraParams, ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams, MoonParams, MoonPhase,
-    MoonPosition, Orders, OrdersDetail, SkyMode, SkyParams, StarsParams, SunParams, SunPosition, ToneMap,
+    CameraParams, CloudKind, CloudsParams, ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams,
+    MoonParams, MoonPhase, MoonPosition, Orders, OrdersDetail, SkyMode, SkyParams, StarsParams, SunParams, SunPosition,
+    ToneMap,
 };
 pub use place::Place;
 pub use preset::{Preset, presets};
 pub use scene::Scene;
 pub use sun::SunDirection;
+pub use tyndall_clouds::params::{CloudGridParams, CloudMatterParams, CloudParams, CloudVapourParams, CloudWindParams};
 pub use tyndall_scattering::Atmosphere;
 pub use tyndall_scattering::haze::{HazeParams, VisibilityContrast};
 pub use tyndall_scattering::params::{AerosolInput, AerosolPhase, AirModel, AtmosphereParams, GroundParams};

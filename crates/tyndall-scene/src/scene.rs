@@ -7,10 +7,14 @@ use tyndall_scattering::refraction::RefractiveAir;
 
 use crate::landscape::Landscape;
 use crate::{
-    AerosolInput, Atmosphere, AtmosphereParams, CameraParams, FilmParams, GroundParams, HazeParams, ImageParams,
+    AerosolInput, Atmosphere, AtmosphereParams, CameraParams, CloudGridParams, CloudKind, CloudMatterParams,
+    CloudParams, CloudVapourParams, CloudWindParams, CloudsParams, FilmParams, GroundParams, HazeParams, ImageParams,
     LandscapeParams, MoonParams, SceneError, SceneHash, SkyParams, StarsParams, SunDirection, SunParams, astronomy,
     astronomy::MoonState, brief::brief, nearest::nearest, sun,
 };
+
+/// Most cells of the clouds of a scene: a frame needs some 60 bytes for each.
+pub(crate) const MOST_CLOUD_CELLS: u64 = 1 << 25;
 
 /// Everything that a picture depends on, and its title.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,6 +39,16 @@ pub struct Scene {
     pub ground: GroundParams,
     /// Hills or mountains on the ground.
     pub landscape: LandscapeParams,
+    /// Whether there are clouds, and how they are drawn.
+    pub clouds: CloudsParams,
+    /// The box that clouds live in.
+    pub cloud_grid: CloudGridParams,
+    /// Where vapour is supplied to clouds.
+    pub cloud_vapour: CloudVapourParams,
+    /// Wind among the clouds.
+    pub cloud_wind: CloudWindParams,
+    /// The matter of the clouds.
+    pub cloud_matter: CloudMatterParams,
     /// How the sky is computed.
     pub sky: SkyParams,
     /// Exposure and display.
@@ -46,7 +60,7 @@ pub struct Scene {
 impl Scene {
     /// The groups with their names in scene files, in the order in which they are shown.
     #[must_use]
-    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 11] {
+    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 16] {
         [
             ("camera", &self.camera),
             ("sun", &self.sun),
@@ -56,6 +70,11 @@ impl Scene {
             ("haze", &self.haze),
             ("ground", &self.ground),
             ("landscape", &self.landscape),
+            ("clouds", &self.clouds),
+            ("cloud_grid", &self.cloud_grid),
+            ("cloud_vapour", &self.cloud_vapour),
+            ("cloud_wind", &self.cloud_wind),
+            ("cloud_matter", &self.cloud_matter),
             ("sky", &self.sky),
             ("film", &self.film),
             ("image", &self.image),
@@ -64,7 +83,7 @@ impl Scene {
 
     /// [`Scene::groups`], to change them.
     #[must_use]
-    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 11] {
+    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 16] {
         [
             ("camera", &mut self.camera),
             ("sun", &mut self.sun),
@@ -74,6 +93,11 @@ impl Scene {
             ("haze", &mut self.haze),
             ("ground", &mut self.ground),
             ("landscape", &mut self.landscape),
+            ("clouds", &mut self.clouds),
+            ("cloud_grid", &mut self.cloud_grid),
+            ("cloud_vapour", &mut self.cloud_vapour),
+            ("cloud_wind", &mut self.cloud_wind),
+            ("cloud_matter", &mut self.cloud_matter),
             ("sky", &mut self.sky),
             ("film", &mut self.film),
             ("image", &mut self.image),
@@ -122,7 +146,27 @@ impl Scene {
         if self.atmosphere.aerosol_input == AerosolInput::Visibility && visibility_km > clearest_km {
             return Err(SceneError::VisibilityBeyondAir { visibility_km, clearest_km });
         }
+        self.check_clouds()?;
         self.moon().map(|_state| ())
+    }
+
+    /// That the grid of the clouds is not too large; nothing without clouds.
+    fn check_clouds(&self) -> Result<(), SceneError> {
+        let grid = &self.cloud_grid;
+        let size = [grid.cells_east, grid.cells_north, grid.cells_up];
+        let cells = size.map(u64::from).iter().product::<u64>();
+        if self.clouds.kind != CloudKind::None && cells > MOST_CLOUD_CELLS {
+            return Err(SceneError::CloudCells { size });
+        }
+        Ok(())
+    }
+
+    /// The clouds' simulation, all groups together; `None` without clouds.
+    #[must_use]
+    pub fn cloud_params(&self) -> Option<CloudParams> {
+        let (grid, vapour) = (self.cloud_grid.clone(), self.cloud_vapour.clone());
+        let (wind, matter) = (self.cloud_wind.clone(), self.cloud_matter.clone());
+        (self.clouds.kind != CloudKind::None).then_some(CloudParams { grid, vapour, wind, matter })
     }
 
     /// Planet, air and ground as the model that all light transport reads, at the eight wavelengths.

@@ -74,15 +74,7 @@ impl SkyRenderer {
         frame: &Buffer,
         (mode, dome): (SkyMode, Dome),
     ) -> Result<SkyDrawData, RenderError> {
-        let common = [
-            ("atmosphere", tables.atmosphere.as_entire_binding()),
-            ("column_table", tables.columns.as_binding()),
-            ("sky_view", tables.view.as_entire_binding()),
-            ("sky_view_air", tables.sky_view_air.as_binding()),
-            ("sky_view_aerosol", tables.sky_view_aerosol.as_binding()),
-            ("sky_view_haze", tables.sky_view_haze.as_binding()),
-            ("sky_view_diffuse", tables.sky_view_diffuse.as_binding()),
-        ];
+        let common = tables.view_bindings();
         let sky = match mode {
             SkyMode::PerPixel => &self.per_pixel,
             SkyMode::VertexDome => &self.dome,

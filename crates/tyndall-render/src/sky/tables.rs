@@ -164,6 +164,20 @@ impl SkyTables {
         ]
     }
 
+    /// What `sky/sky_view_lookup.wgsl` and `sky/column_lookup.wgsl` need, by the names of their variables.
+    #[must_use]
+    pub(crate) fn view_bindings(&self) -> [(&'static str, wgpu::BindingResource<'_>); 7] {
+        [
+            ("atmosphere", self.atmosphere.as_entire_binding()),
+            ("column_table", self.columns.as_binding()),
+            ("sky_view", self.view.as_entire_binding()),
+            ("sky_view_air", self.sky_view_air.as_binding()),
+            ("sky_view_aerosol", self.sky_view_aerosol.as_binding()),
+            ("sky_view_haze", self.sky_view_haze.as_binding()),
+            ("sky_view_diffuse", self.sky_view_diffuse.as_binding()),
+        ]
+    }
+
     /// Forgets what the tables hold, so that the next frame fills them again.
     pub fn invalidate(&mut self) {
         self.filled_for = None;

@@ -1,6 +1,7 @@
 //! What users choose besides the atmosphere and the ground, one file per group.
 
 mod camera;
+mod clouds;
 mod film;
 mod image;
 mod landscape;
@@ -10,6 +11,7 @@ mod stars;
 mod sun;
 
 pub use camera::CameraParams;
+pub use clouds::{CloudKind, CloudsParams};
 pub use film::{ExposureMode, FilmParams, ToneMap};
 pub use image::ImageParams;
 pub use landscape::{LandscapeKind, LandscapeParams};

@@ -31,7 +31,24 @@ fn both_lists_of_groups_have_the_same_names_in_the_same_order() {
     let names = scene.groups().map(|(name, _)| name);
     assert_eq!(
         names,
-        ["camera", "sun", "moon", "stars", "atmosphere", "haze", "ground", "landscape", "sky", "film", "image"],
+        [
+            "camera",
+            "sun",
+            "moon",
+            "stars",
+            "atmosphere",
+            "haze",
+            "ground",
+            "landscape",
+            "clouds",
+            "cloud_grid",
+            "cloud_vapour",
+            "cloud_wind",
+            "cloud_matter",
+            "sky",
+            "film",
+            "image"
+        ],
         "as in scene files"
     );
     assert_eq!(scene.groups_mut().map(|(name, _)| name), names, "mutable");
@@ -140,4 +157,17 @@ fn a_visibility_beyond_that_of_pure_air_is_refused() {
     scene.atmosphere.aerosol_input = AerosolInput::Visibility;
     let message = scene.check().unwrap_err().to_string();
     assert!(message.contains("aerosol_visibility_km` = 300 km") && message.contains("161 km"), "{message}");
+}
+
+#[test]
+fn clouds_of_more_cells_than_a_picture_takes_are_refused_and_none_are_not() {
+    let mut scene = Scene::default();
+    (scene.cloud_grid.cells_east, scene.cloud_grid.cells_north) = (2048, 2048);
+    assert!(scene.check().is_ok() && scene.cloud_params().is_none(), "without clouds it does not matter");
+    scene.clouds.kind = CloudKind::Automaton;
+    let error = scene.check().unwrap_err();
+    assert!(error.to_string().contains("2048 x 2048 x 32 cells is more than 33554432"), "{error}");
+    assert_eq!(error.field().as_deref(), Some("cloud_grid.cells_east"), "the first to lower");
+    scene.cloud_grid.cells_east = 512;
+    assert!(scene.check().is_ok() && scene.cloud_params().is_some(), "just as many as allowed");
 }

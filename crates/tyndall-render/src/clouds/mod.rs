@@ -1,0 +1,168 @@
+//! Clouds in the frame: the paper's automaton, marched at every pixel. WGSL: `shaders/clouds`.
+//!
+//! The simulation and the light in its cells come from `tyndall_clouds` and stay on the CPU until they change. A frame marches
+//! them from the camera to whatever was drawn before, and lays the result over it: sunlight scattered once by its exact phase
+//! function, sunlight scattered more often by diffusion, light of sky and ground as at sea level, and the air between cloud and camera.
+//!
+//! A wrapped grid repeats to the horizon. Clouds throw no shadow on the ground or into the air yet, and the moon lights none.
+
+pub mod gpu_data;
+mod skip;
+mod volume;
+
+use tyndall_gpu::wgpu::{self, BufferUsages, TextureUsages};
+use tyndall_gpu::{Buffer, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture, TextureDesc};
+use tyndall_scene::Scene;
+
+use crate::sky::SkyTables;
+use crate::{FrameTarget, RenderError, RendererConfig};
+use gpu_data::{Clouds, transport};
+use volume::{CloudVolume, VolumeRequest};
+
+/// The pipeline, the simulation and its textures.
+#[derive(Debug)]
+pub struct CloudRenderer {
+    pipeline: RenderPipeline,
+    uniform: Buffer,
+    sampler: wgpu::Sampler,
+    volume: CloudVolume,
+    /// Copy of the frame without clouds: blending 32-bit floats is not everywhere possible.
+    behind: Option<Texture>,
+}
+
+/// Bind groups of one frame's clouds.
+#[derive(Debug)]
+pub struct CloudDrawData {
+    bindings: [wgpu::BindGroup; 3],
+}
+
+/// What clouds are drawn with.
+#[derive(Clone, Copy, Debug)]
+pub struct CloudSurroundings<'a> {
+    /// The frame's uniform.
+    pub frame: &'a Buffer,
+    /// The sky's tables.
+    pub tables: &'a SkyTables,
+}
+
+impl CloudRenderer {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// When the shader is wrong or memory does not suffice.
+    pub fn new(gpu: &Gpu, config: RendererConfig) -> Result<Self, RenderError> {
+        let pipeline = RenderPipeline::new(
+            gpu,
+            &Shader::load(gpu, "clouds/view.wgsl")?,
+            &RenderPipelineDesc {
+                label: "clouds",
+                vertex: "cloud_vertex",
+                fragment: "cloud_fragment",
+                targets: &[config.frame_format().into()],
+                depth: None,
+                primitive: wgpu::PrimitiveState::default(),
+                constants: &[],
+            },
+        )?;
+        let bytes = size_of::<Clouds>() as u64;
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("clouds"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        Ok(Self {
+            pipeline,
+            uniform: gpu.buffer("clouds", bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
+            sampler,
+            volume: CloudVolume::default(),
+            behind: None,
+        })
+    }
+
+    /// Simulates and binds the clouds of a grounded scene; `None` without clouds.
+    ///
+    /// # Errors
+    /// When the scene has no sun position, the clouds' values do not fit together or memory does not suffice.
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        surroundings: CloudSurroundings<'_>,
+        target: &FrameTarget,
+    ) -> Result<Option<CloudDrawData>, RenderError> {
+        let Some(params) = scene.cloud_params() else { return Ok(None) };
+        let uniform = Clouds::new(&scene.clouds, &params);
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        let request = VolumeRequest {
+            params,
+            time_s: scene.clouds.time_s,
+            to_sun: scene.sun_direction()?.unit().to_array(),
+            transport: transport(&scene.clouds),
+        };
+        let textures = self.volume.update(gpu, &request)?;
+        let behind = copy_of_frame(gpu, &mut self.behind, target)?;
+        let tables = surroundings.tables;
+        let mut sky = tables.view_bindings().to_vec();
+        sky.push(("irradiance_table", tables.irradiance.as_binding()));
+        let own = [
+            ("clouds", self.uniform.as_entire_binding()),
+            ("cloud_cells", textures.cells.as_binding()),
+            ("cloud_sampler", wgpu::BindingResource::Sampler(&self.sampler)),
+            ("cloud_skips", textures.skips.as_binding()),
+            ("cloud_behind", behind.as_binding()),
+            ("cloud_depth", target.depth.as_binding()),
+        ];
+        let frame = [("frame", surroundings.frame.as_entire_binding())];
+        let bindings =
+            [self.pipeline.bind(gpu, 0, &sky)?, self.pipeline.bind(gpu, 1, &frame)?, self.pipeline.bind(gpu, 2, &own)?];
+        Ok(Some(CloudDrawData { bindings }))
+    }
+
+    /// Records the clouds over what the target's frame shows.
+    pub fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: &mut PassTimer,
+        data: &CloudDrawData,
+        target: &FrameTarget,
+    ) {
+        let Some(behind) = &self.behind else { return };
+        encoder.copy_texture_to_texture(target.frame.as_image_copy(), behind.as_image_copy(), behind.size());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("clouds"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: target.frame.view(),
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+            })],
+            timestamp_writes: timer.render_writes("clouds"),
+            ..Default::default()
+        });
+        pass.set_pipeline(self.pipeline.raw());
+        for (index, group) in (0..).zip(&data.bindings) {
+            pass.set_bind_group(index, group, &[]);
+        }
+        pass.draw(0..3, 0..1);
+    }
+}
+
+/// A texture like the target's frame.
+fn copy_of_frame<'a>(
+    gpu: &Gpu,
+    held: &'a mut Option<Texture>,
+    target: &FrameTarget,
+) -> Result<&'a Texture, RenderError> {
+    let last = held.take().filter(|last| last.size() == target.frame.size());
+    let texture = match last {
+        Some(texture) => texture,
+        None => {
+            let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+            gpu.texture(&TextureDesc::new_2d("frame without clouds", target.size_px(), target.frame.format(), usage))?
+        }
+    };
+    Ok(held.insert(texture))
+}

@@ -1,0 +1,98 @@
+// A ray through the clouds: how much light of each kind it gathers. Light that was scattered often is met in a medium thinner
+// by `transport`, and gathered with that medium's transmittance; see tyndall_clouds::cloud_light.
+// @import clouds/clouds.wgsl
+// @import clouds/detail.wgsl
+// @import common/phase.wgsl
+// @import sky/view.wgsl
+
+const CLOUD_STEPS: u32 = 400u;
+/// Step over the side of a cell near the camera, and over the distance far away.
+const CLOUD_STEP_CELLS: f32 = 0.5;
+const CLOUD_STEP_GROWTH: f32 = 0.006;
+/// Transmittances at which a ray has seen enough.
+const CLOUD_DARK: f32 = 0.002;
+const CLOUD_DARK_DIFFUSE: f32 = 0.01;
+/// Share of the reach over which clouds fade out.
+const CLOUD_FADE: f32 = 0.25;
+
+struct CloudLight {
+    sun: f32,           // 1/sr, of a sun of irradiance 1
+    sky: f32,           // 1, of what a surface that faces up receives, over pi
+    ground: f32,        // 1, the same that faces down
+    transmittance: f32, // of the whole ray
+    distance_m: f32,    // mean, of what is seen
+}
+
+/// Distances (m) between which a ray is among the cells and within reach; start >= end when it never is.
+fn cloud_span(mu: f32, limit_m: f32) -> vec2<f32> {
+    let radius = atmosphere.planet_radius_m;
+    let h = sky_view.observer_altitude_m;
+    let ceiling = altitude_crossings(radius, h, mu, clouds.ceiling_m);
+    let floor = altitude_crossings(radius, h, mu, clouds.floor_m);
+    var span = vec2<f32>(0.0, 0.0);
+    if (h < clouds.floor_m) {
+        span = vec2<f32>(floor.y, ceiling.y);
+    } else if (h <= clouds.ceiling_m) {
+        span.y = select(ceiling.y, floor.x, floor.x > 0.0);
+    } else {
+        span = vec2<f32>(ceiling.x, select(ceiling.y, floor.x, floor.x > 0.0));
+        if (ceiling.x <= 0.0) { return vec2<f32>(0.0); }
+    }
+    return vec2<f32>(max(span.x, 0.0), min(span.y, min(limit_m, clouds.reach_m)));
+}
+
+/// Radiance (1/sr) over transmitted sunlight of light scattered once, and that of what narrow forward scattering adds.
+fn cloud_phases(nu: f32) -> vec2<f32> {
+    let once = phase_double_henyey_greenstein(nu, clouds.asymmetry, clouds.forward_weight);
+    // Scattered forward a few times: the lobe is as wide as those of all these scatterings together.
+    let wide = clouds.asymmetry * clouds.asymmetry * clouds.asymmetry;
+    return vec2<f32>(once, phase_double_henyey_greenstein(nu, wide, clouds.forward_weight));
+}
+
+/// Gathers light along a ray up to `limit_m`; `jitter` 0..1 moves the samples within their steps.
+fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
+    let radius = atmosphere.planet_radius_m;
+    let h0 = sky_view.observer_altitude_m;
+    let span = cloud_span(direction.z, limit_m);
+    let phases = cloud_phases(sky_sun_cosine(direction));
+    var light = CloudLight(0.0, 0.0, 0.0, 1.0, 0.0);
+    var thin = 1.0; // transmittance for light that was scattered often
+    var t = span.x;
+    for (var i = 0u; i < CLOUD_STEPS; i++) { // loops: CLOUD_STEPS
+        if (t >= span.y) { break; }
+        let step = min(max(CLOUD_STEP_CELLS * clouds.cell_m, CLOUD_STEP_GROWTH * t), span.y - t);
+        let at = t + jitter * step;
+        let h = altitude_along(radius, h0, direction.z, at);
+        let place = cloud_place(frame.position_m.xy + at * direction.xy, h);
+        let rise = (direction.z * (radius + h0) + at) / (radius + h);
+        let steepest = max(max(abs(direction.x), abs(direction.y)), abs(rise));
+        let skip = cloud_skip(place) * clouds.cell_m / steepest;
+        if (skip > step) {
+            t += skip;
+            continue;
+        }
+        let cell = cloud_at(place);
+        let fade = 1.0 - smoothstep((1.0 - CLOUD_FADE) * clouds.reach_m, clouds.reach_m, at);
+        let depth = cloud_detailed(cell.x, place, at) * fade * step;
+        t += step;
+        if (depth <= 0.0) { continue; }
+        let left = exp(-depth);
+        let seen = light.transmittance * (1.0 - left);
+        let direct = exp(-cell.y);
+        light.sun += seen * phases.x * direct;
+        light.distance_m += seen * at;
+        light.transmittance *= left;
+        if (clouds.all_orders == 1u) {
+            let left_thin = exp(-clouds.transport * depth);
+            let seen_thin = thin * (1.0 - left_thin);
+            light.sun += seen_thin * (phases.y * (exp(-clouds.transport * cell.y) - direct) + cell.z);
+            light.sky += seen_thin * cell.w;
+            light.ground += seen_thin * (1.0 - cell.w);
+            thin *= left_thin;
+        }
+        let enough = select(1.0, thin, clouds.all_orders == 1u);
+        if (light.transmittance < CLOUD_DARK && (clouds.all_orders == 0u || enough < CLOUD_DARK_DIFFUSE)) { break; }
+    }
+    light.distance_m /= max(1.0 - light.transmittance, 1e-6);
+    return light;
+}
