@@ -1,4 +1,5 @@
 // The clouds of a frame: a grid of cells, centred on the scene's origin. Uniform twin: tyndall_render::clouds::gpu_data::Clouds.
+// A storage buffer, and decisions without branches: lavapipe 22.3 fails in shaders that branch on several uniform buffers.
 // @import frame/frame.wgsl
 
 struct Clouds {
@@ -16,7 +17,7 @@ struct Clouds {
     detail: f32,           // 1, how deep turbulence cuts into edges
     block_cells: f32,      // side of a block of cloud_skips
 }
-@group(2) @binding(0) var<uniform> clouds: Clouds;
+@group(2) @binding(0) var<storage, read> clouds: Clouds;
 @group(2) @binding(1) var cloud_cells: texture_3d<f32>; // extinction (1/m), optical depth to the sun, diffuse sunlight (1/sr), share of the sky
 @group(2) @binding(2) var cloud_sampler: sampler;
 @group(2) @binding(3) var cloud_skips: texture_3d<u32>; // cells that a ray may jump from anywhere in a block
@@ -28,24 +29,19 @@ fn cloud_place(point: vec2<f32>, altitude: f32) -> vec3<f32> {
 
 /// Matter and light at a place in cells; nothing outside a grid that does not repeat.
 fn cloud_at(place: vec3<f32>) -> vec4<f32> {
-    let outside = any(place.xy < vec2<f32>(0.0)) || any(place.xy > clouds.size.xy);
-    if (clouds.wraps == 0u && outside) {
+    let outside = any(place.xy != clamp(place.xy, vec2<f32>(0.0), clouds.size.xy));
+    if ((clouds.wraps == 0u) & outside) {
         return vec4<f32>(0.0);
     }
     // The sampler repeats; without it the outer half cells are those of the edge.
-    var inner = place;
-    if (clouds.wraps == 0u) {
-        inner = clamp(place, vec3<f32>(0.5), clouds.size - 0.5);
-    }
+    let inner = select(place, clamp(place, vec3<f32>(0.5), clouds.size - 0.5), clouds.wraps == 0u);
     return textureSampleLevel(cloud_cells, cloud_sampler, inner / clouds.size, 0.0);
 }
 
 /// Cells along each axis that a ray may go on from a place without meeting cloud; 0 where there may be some.
 fn cloud_skip(place: vec3<f32>) -> f32 {
-    var inner = place.xy;
-    if (clouds.wraps == 1u) {
-        inner = place.xy - clouds.size.xy * floor(place.xy / clouds.size.xy);
-    }
+    let wrapped = place.xy - clouds.size.xy * floor(place.xy / clouds.size.xy);
+    let inner = select(place.xy, wrapped, clouds.wraps == 1u);
     let last = vec3<f32>(textureDimensions(cloud_skips) - 1u);
     let block = clamp(floor(vec3<f32>(inner, place.z) / clouds.block_cells), vec3<f32>(0.0), last);
     return f32(textureLoad(cloud_skips, vec3<u32>(block), 0).x);

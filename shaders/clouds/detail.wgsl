@@ -3,8 +3,11 @@
 // @import common/noise.wgsl
 
 /// Wavelength of the coarsest billows over the side of a cell.
-const CLOUD_BILLOW_CELLS: f32 = 3.0;
-const CLOUD_BILLOW_OCTAVES: u32 = 3u;
+const CLOUD_BILLOW_CELLS: f32 = 7.0;
+const CLOUD_BILLOW_OCTAVES: u32 = 4u;
+/// Share of a cloud's extinction that the deepest billows cut away, and over which an edge rises.
+const CLOUD_BILLOW_DEPTH: f32 = 0.7;
+const CLOUD_EDGE: f32 = 0.12;
 
 /// Billows of 0..1 at a place in cells, for a footprint in cells, below which none are seen.
 fn cloud_billows(place: vec3<f32>, footprint: f32) -> f32 {
@@ -26,12 +29,16 @@ fn cloud_billows(place: vec3<f32>, footprint: f32) -> f32 {
 
 /// Extinction (1/m) with turbulence of what the cells have at a place in cells, `t` metres away.
 fn cloud_detailed(extinction: f32, place: vec3<f32>, t: f32) -> f32 {
-    if (extinction <= 0.0 || clouds.detail <= 0.0) {
+    if ((extinction <= 0.0) | (clouds.detail <= 0.0)) {
         return extinction;
     }
     let share = extinction / clouds.full_per_m;
+    let deepest = CLOUD_BILLOW_DEPTH * clouds.detail;
+    if (share > deepest + CLOUD_EDGE) {
+        return extinction;
+    }
     let footprint = t * frame_pixel_angle(vec2<f32>(0.0)) / clouds.cell_m;
     // The threshold rises where billows are hollow; edges become steep, and middles are above any threshold.
-    let threshold = 0.5 * clouds.detail * (1.0 - cloud_billows(place, footprint));
-    return extinction * smoothstep(threshold, threshold + 0.25, share);
+    let threshold = deepest * (1.0 - cloud_billows(place, footprint));
+    return extinction * smoothstep(threshold, threshold + CLOUD_EDGE, share);
 }

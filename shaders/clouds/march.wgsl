@@ -21,6 +21,7 @@ struct CloudLight {
     ground: f32,        // 1, the same that faces down
     transmittance: f32, // of the whole ray
     distance_m: f32,    // mean, of what is seen
+    forward: f32,       // 1, of what lies behind, scattered forward only
 }
 
 /// Distances (m) between which a ray is among the cells and within reach; start >= end when it never is.
@@ -29,16 +30,14 @@ fn cloud_span(mu: f32, limit_m: f32) -> vec2<f32> {
     let h = sky_view.observer_altitude_m;
     let ceiling = altitude_crossings(radius, h, mu, clouds.ceiling_m);
     let floor = altitude_crossings(radius, h, mu, clouds.floor_m);
-    var span = vec2<f32>(0.0, 0.0);
-    if (h < clouds.floor_m) {
-        span = vec2<f32>(floor.y, ceiling.y);
-    } else if (h <= clouds.ceiling_m) {
-        span.y = select(ceiling.y, floor.x, floor.x > 0.0);
-    } else {
-        span = vec2<f32>(ceiling.x, select(ceiling.y, floor.x, floor.x > 0.0));
-        if (ceiling.x <= 0.0) { return vec2<f32>(0.0); }
-    }
-    return vec2<f32>(max(span.x, 0.0), min(span.y, min(limit_m, clouds.reach_m)));
+    let is_below = h < clouds.floor_m;
+    let is_above = h > clouds.ceiling_m;
+    let start = select(select(0.0, ceiling.x, is_above), floor.y, is_below);
+    // Downwards a ray leaves through the floor; where it rises again it is too far away.
+    let through_floor = select(ceiling.y, floor.x, floor.x > 0.0);
+    let end = select(through_floor, ceiling.y, is_below);
+    let misses = is_above & (ceiling.x <= 0.0);
+    return vec2<f32>(max(start, 0.0), select(min(end, min(limit_m, clouds.reach_m)), 0.0, misses));
 }
 
 /// Radiance (1/sr) over transmitted sunlight of light scattered once, and that of what narrow forward scattering adds.
@@ -55,7 +54,8 @@ fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
     let h0 = sky_view.observer_altitude_m;
     let span = cloud_span(direction.z, limit_m);
     let phases = cloud_phases(sky_sun_cosine(direction));
-    var light = CloudLight(0.0, 0.0, 0.0, 1.0, 0.0);
+    var light = CloudLight(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
+    let often = f32(clouds.all_orders);
     var thin = 1.0; // transmittance for light that was scattered often
     var t = span.x;
     for (var i = 0u; i < CLOUD_STEPS; i++) { // loops: CLOUD_STEPS
@@ -82,17 +82,15 @@ fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
         light.sun += seen * phases.x * direct;
         light.distance_m += seen * at;
         light.transmittance *= left;
-        if (clouds.all_orders == 1u) {
-            let left_thin = exp(-clouds.transport * depth);
-            let seen_thin = thin * (1.0 - left_thin);
-            light.sun += seen_thin * (phases.y * (exp(-clouds.transport * cell.y) - direct) + cell.z);
-            light.sky += seen_thin * cell.w;
-            light.ground += seen_thin * (1.0 - cell.w);
-            thin *= left_thin;
-        }
-        let enough = select(1.0, thin, clouds.all_orders == 1u);
-        if (light.transmittance < CLOUD_DARK && (clouds.all_orders == 0u || enough < CLOUD_DARK_DIFFUSE)) { break; }
+        let left_thin = exp(-clouds.transport * depth);
+        let seen_thin = often * thin * (1.0 - left_thin);
+        light.sun += seen_thin * (phases.y * (exp(-clouds.transport * cell.y) - direct) + cell.z);
+        light.sky += seen_thin * cell.w;
+        light.ground += seen_thin * (1.0 - cell.w);
+        thin *= left_thin;
+        if (light.transmittance < CLOUD_DARK && often * thin < CLOUD_DARK_DIFFUSE) { break; }
     }
+    light.forward = often * (thin - light.transmittance);
     light.distance_m /= max(1.0 - light.transmittance, 1e-6);
     return light;
 }

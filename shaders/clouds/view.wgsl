@@ -32,13 +32,12 @@ fn cloud_radiance(direction: vec3<f32>, light: CloudLight) -> vec3<f32> {
     let horizon = horizon_mu(radius, h);
     let visible = clamp(0.5 + 0.5 * (mu_sun - horizon) / sin(sky_view.sun_angular_radius), 0.0, 1.0);
     let sunlight = spectrum_mul(atmosphere.solar_irradiance, atmosphere_transmittance(columns_to_top(h, max(mu_sun, horizon))));
-    var radiance = light.sun * visible * atmosphere_rec709(sunlight);
-    if (clouds.all_orders == 1u) {
-        let sky = ground_sky_irradiance(mu_sun);
-        let ground = spectrum_mul(atmosphere.ground_albedo, spectrum_add(sky, ground_sun_irradiance(mu_sun)));
-        radiance += light.sky / SKY_PI * atmosphere_rec709(sky) + light.ground / SKY_PI * atmosphere_rec709(ground);
-    }
-    return radiance;
+    let sky = ground_sky_irradiance(mu_sun);
+    let ground = spectrum_mul(atmosphere.ground_albedo, spectrum_add(sky, ground_sun_irradiance(mu_sun)));
+    let ambient = light.sky / SKY_PI * atmosphere_rec709(sky) + light.ground / SKY_PI * atmosphere_rec709(ground);
+    // Light from behind the cloud that was scattered a little: blurred, and as bright as sky or ground there.
+    let behind = select(atmosphere_rec709(ground) / SKY_PI, sky_view_radiance(sky_view_angles(direction), sky_sun_cosine(direction)), direction.z > 0.0);
+    return light.sun * visible * atmosphere_rec709(sunlight) + ambient + light.forward * behind;
 }
 
 @fragment

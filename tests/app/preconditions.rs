@@ -4,8 +4,8 @@
 //! except where all orders matter: the tables of the others take seconds on a software adapter.
 
 use tyndall_scene::{
-    AerosolInput, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, OrdersDetail, Scene, SkyMode,
-    SunPosition,
+    AerosolInput, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, OrdersDetail, Scene,
+    SkyMode, SunPosition,
 };
 
 /// A scene and the parameters that are tried in it.
@@ -242,6 +242,50 @@ pub(crate) const ALL: &[Precondition] = &[
         ],
     },
     Precondition {
+        name: "a few clouds of a small grid",
+        prepare: cloudy,
+        parameters: &[
+            ("clouds.kind", None),
+            ("clouds.time_s", Some(400.0)),
+            ("clouds.reach_km", Some(2.0)),
+            ("clouds.orders", None),
+            ("clouds.forward_asymmetry", Some(0.5)),
+            ("clouds.backward_asymmetry", Some(-0.2)),
+            ("clouds.forward_weight", Some(0.6)),
+            ("clouds.detail", Some(0.0)),
+            ("cloud_grid.cells_east", Some(48.0)),
+            ("cloud_grid.cells_north", Some(48.0)),
+            ("cloud_grid.cells_up", Some(24.0)),
+            ("cloud_grid.cell_m", Some(70.0)),
+            ("cloud_grid.floor_m", Some(1400.0)),
+            ("cloud_grid.edges", None),
+            ("cloud_grid.seed", Some(7.0)),
+            ("cloud_grid.warm_up_steps", Some(33.0)),
+            ("cloud_grid.step_s", Some(60.0)),
+            ("cloud_vapour.pattern", None),
+            ("cloud_vapour.cover", Some(0.9)),
+            ("cloud_vapour.bubble_radius_m", Some(300.0)),
+            ("cloud_vapour.bubble_height_m", Some(300.0)),
+            ("cloud_vapour.bubble_spread", Some(0.1)),
+            ("cloud_vapour.base_m", Some(350.0)),
+            ("cloud_vapour.start_humidity", Some(0.2)),
+            ("cloud_vapour.humidity", Some(0.5)),
+            ("cloud_vapour.activation", Some(0.1)),
+            ("cloud_vapour.extinction", Some(0.3)),
+            ("cloud_vapour.extinction_outside", Some(0.05)),
+            ("cloud_vapour.supply_interval", Some(5.0)),
+            ("cloud_wind.floor_speed_m_s", Some(20.0)),
+            ("cloud_wind.floor_from_deg", Some(90.0)),
+            ("cloud_wind.ceiling_speed_m_s", Some(20.0)),
+            ("cloud_wind.ceiling_from_deg", Some(90.0)),
+            ("cloud_matter.extinction_per_m", Some(0.01)),
+            ("cloud_matter.ball_radius_cells", Some(3.0)),
+            ("cloud_matter.smooth_cells", Some(0.0)),
+            ("cloud_matter.smooth_steps", Some(0.0)),
+            ("cloud_matter.threshold", Some(0.3)),
+        ],
+    },
+    Precondition {
         name: "the automatic exposure",
         prepare: |scene| {
             single(scene);
@@ -272,6 +316,15 @@ fn valley(scene: &mut Scene) {
     scene.camera.altitude_m = 300.0;
     scene.camera.pitch_deg = 0.0;
     scene.camera.x_m = 2000.0;
+}
+
+/// Clouds over a camera that looks up at them.
+fn cloudy(scene: &mut Scene) {
+    manual(scene);
+    scene.clouds.kind = CloudKind::Automaton;
+    scene.camera.pitch_deg = 40.0;
+    let grid = &mut scene.cloud_grid;
+    (grid.cells_east, grid.cells_north, grid.cells_up, grid.warm_up_steps) = (32, 32, 16, 20);
 }
 
 /// The sun far below the horizon, and a film for starlight.

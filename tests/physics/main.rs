@@ -4,6 +4,7 @@
 mod aerial;
 mod background;
 mod clouds;
+mod clouds;
 mod dome;
 mod gpu_orders;
 mod gpu_tables;

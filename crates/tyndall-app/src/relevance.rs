@@ -1,7 +1,7 @@
 //! Which parameters have no effect at present, and why: the app shows those disabled.
 
 use tyndall_scene::{
-    AerosolInput, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, Scene, SkyMode, SunPosition,
+    AerosolInput, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, Scene, SkyMode, SunPosition,
 };
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
@@ -19,6 +19,12 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
             Some("The ground is plain; set Pattern to checker.")
         }
         ("landscape", name) => landscape(scene.landscape.kind, name),
+        ("clouds", "kind") => None,
+        ("clouds" | "cloud_grid" | "cloud_vapour" | "cloud_wind" | "cloud_matter", _)
+            if scene.clouds.kind == CloudKind::None =>
+        {
+            Some("There are no clouds; set Kind of clouds to one.")
+        }
         ("ground", "red" | "green" | "blue") if scene.ground.material.name() != "colour" => {
             Some("The ground has the spectrum of a material; set Material to colour.")
         }
@@ -155,6 +161,7 @@ mod tests {
             ("film", "compensation_ev"),
             ("ground", "pattern"),
             ("landscape", "kind"),
+            ("clouds", "kind"),
             ("sky", "mode"),
             ("haze", "enabled"),
         ] {

@@ -75,7 +75,7 @@ impl CloudRenderer {
         });
         Ok(Self {
             pipeline,
-            uniform: gpu.buffer("clouds", bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)?,
+            uniform: gpu.buffer("clouds", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
             sampler,
             volume: CloudVolume::default(),
             behind: None,

@@ -26,13 +26,13 @@ params! {
         /// Whether light counts that was scattered in a cloud once, as in the paper, or any number of times.
         orders: Orders = Orders::All, "paper section 3.3";
         /// Mean cosine of the forward lobe; near 1 bright edges around the sun.
-        forward_asymmetry: f64 = 0.88, ["1", 0.0..=0.95, Linear], "Henyey and Greenstein 1941";
+        forward_asymmetry: f64 = 0.89, ["1", 0.0..=0.95, Linear], "Henyey and Greenstein 1941";
         /// Mean cosine of the backward lobe.
-        backward_asymmetry: f64 = -0.35, ["1", -0.95..=0.0, Linear], "Henyey and Greenstein 1941";
+        backward_asymmetry: f64 = -0.5, ["1", -0.95..=0.0, Linear], "Henyey and Greenstein 1941";
         /// Share of the light in the forward lobe.
-        forward_weight: f64 = 0.95, ["1", 0.0..=1.0, Linear], "two-term Henyey-Greenstein";
+        forward_weight: f64 = 0.94, ["1", 0.0..=1.0, Linear], "two-term Henyey-Greenstein";
         /// How deep turbulence finer than a cell cuts into the edges of clouds; 0 leaves them smooth.
-        detail: f64 = 0.5, ["1", 0.0..=1.0, Linear], "Schneider and Vos 2015";
+        detail: f64 = 0.6, ["1", 0.0..=1.0, Linear], "Schneider and Vos 2015";
     }
 }
 
