@@ -3,7 +3,7 @@
 
 mod aerial;
 mod background;
-mod clouds;
+mod cloud_pictures;
 mod clouds;
 mod dome;
 mod gpu_orders;

@@ -157,12 +157,11 @@ fn copy_of_frame<'a>(
     target: &FrameTarget,
 ) -> Result<&'a Texture, RenderError> {
     let last = held.take().filter(|last| last.size() == target.frame.size());
-    let texture = match last {
-        Some(texture) => texture,
-        None => {
-            let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-            gpu.texture(&TextureDesc::new_2d("frame without clouds", target.size_px(), target.frame.format(), usage))?
-        }
+    let texture = if let Some(texture) = last {
+        texture
+    } else {
+        let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+        gpu.texture(&TextureDesc::new_2d("frame without clouds", target.size_px(), target.frame.format(), usage))?
     };
     Ok(held.insert(texture))
 }

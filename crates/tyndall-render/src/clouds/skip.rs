@@ -65,7 +65,7 @@ fn nearest_along(blocks: &mut Grid3<u8>, axis: usize, wraps: bool) {
     let stride = [1, size[0], size[0] * size[1]][axis];
     let count = size[axis];
     let mut line = vec![0_u8; count];
-    let firsts = (0..size.iter().product()).filter(|index| index / stride % count == 0);
+    let firsts = (0..size.iter().product()).filter(|index| (index / stride).is_multiple_of(count));
     for first in firsts.collect::<Vec<usize>>() {
         for (place, value) in line.iter_mut().enumerate() {
             *value = blocks.cells()[first + place * stride];
@@ -127,7 +127,9 @@ mod tests {
         ] {
             for edges in [Edges::Open, Edges::Wrap] {
                 let mut extinction = Grid3::filled(size, 0.0);
-                clouds.iter().for_each(|cloud| extinction[*cloud] = 0.5);
+                for cloud in &clouds {
+                    extinction[*cloud] = 0.5;
+                }
                 assert_eq!(jumps_over_cloud(&extinction, edges), None, "{size:?}, {edges:?}");
                 assert!(skip_cells(&extinction, edges).cells().iter().any(|jump| *jump > 0), "{size:?}: some jump");
             }

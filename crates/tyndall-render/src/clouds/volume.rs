@@ -87,12 +87,11 @@ impl CloudVolume {
         let texels = texels(extinction, &light);
         let bytes = bytemuck::cast_slice::<_, u8>(&texels);
         let cells = filled(gpu, "clouds", (extinction.size(), TextureFormat::Rgba16Float, 8), bytes)?;
-        let skips = match skips {
-            Some(skips) => skips,
-            None => {
-                let blocks = skip_cells(extinction, grid.edges);
-                filled(gpu, "clouds' gaps", (blocks.size(), TextureFormat::R8Uint, 1), blocks.cells())?
-            }
+        let skips = if let Some(skips) = skips {
+            skips
+        } else {
+            let blocks = skip_cells(extinction, grid.edges);
+            filled(gpu, "clouds' gaps", (blocks.size(), TextureFormat::R8Uint, 1), blocks.cells())?
         };
         Ok(CloudTextures { cells, skips })
     }
