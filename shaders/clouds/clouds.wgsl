@@ -1,4 +1,4 @@
-// The clouds of a frame: a grid of cells, centred on the scene's origin. Uniform twin: tyndall_render::clouds::gpu_data::Clouds.
+// The clouds of a frame: a grid of cells. Uniform twin: tyndall_render::clouds::gpu_data::Clouds.
 // A storage buffer, and decisions without branches: lavapipe 22.3 fails in shaders that branch on several uniform buffers.
 // @import frame/frame.wgsl
 
@@ -16,6 +16,8 @@ struct Clouds {
     all_orders: u32,       // 1 when light counts that was scattered more than once
     detail: f32,           // 1, how deep turbulence cuts into edges
     block_cells: f32,      // side of a block of cloud_skips
+    low_corner_m: vec2<f32>, // the grid's west and south sides, from the scene's origin
+    padding: vec2<f32>,
 }
 @group(2) @binding(0) var<storage, read> clouds: Clouds;
 @group(2) @binding(1) var cloud_cells: texture_3d<f32>; // extinction (1/m), optical depth to the sun, diffuse sunlight (1/sr), share of the sky
@@ -24,7 +26,7 @@ struct Clouds {
 
 /// Place in cells from the grid's low corner of a point: metres east and north of the origin, and its altitude.
 fn cloud_place(point: vec2<f32>, altitude: f32) -> vec3<f32> {
-    return vec3<f32>(point / clouds.cell_m + 0.5 * clouds.size.xy, (altitude - clouds.floor_m) / clouds.cell_m);
+    return vec3<f32>((point - clouds.low_corner_m) / clouds.cell_m, (altitude - clouds.floor_m) / clouds.cell_m);
 }
 
 /// Matter and light at a place in cells; nothing outside a grid that does not repeat.

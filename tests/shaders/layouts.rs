@@ -127,6 +127,8 @@ fn clouds() -> (&'static str, StructLayout) {
             all_orders,
             detail,
             block_cells,
+            low_corner_m,
+            padding,
         }),
     )
 }

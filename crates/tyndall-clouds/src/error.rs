@@ -2,6 +2,7 @@
 
 use tyndall_core::grid::Grid3;
 
+use crate::ball_grid::{MOST_CELLS, MOST_SIDE_CELLS};
 use crate::grid_size::{MAX_CELLS, MAX_HEIGHT_CELLS, MAX_SIDE_CELLS};
 
 /// Refusals of this crate.
@@ -66,6 +67,21 @@ pub enum CloudError {
         name: String,
         /// What is wrong with it.
         problem: String,
+    },
+    /// A list of metaballs without any.
+    #[error("the list of metaballs is empty")]
+    NoBalls,
+    /// The grid around a list of metaballs has too many cells.
+    #[error(
+        "the balls need {:.0} x {:.0} x {:.0} cells of {cell_m} m; {MOST_SIDE_CELLS} along each axis and {MOST_CELLS} in all are \
+         allowed: make cells larger",
+        .sides[0], .sides[1], .sides[2]
+    )]
+    BallBox {
+        /// Cells along each axis.
+        sides: [f64; 3],
+        /// Side of a cell (m).
+        cell_m: f64,
     },
     /// A line of a list of metaballs cannot be read.
     #[error("line {line}: {problem}")]

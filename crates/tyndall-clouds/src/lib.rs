@@ -7,14 +7,17 @@
 //!   [`HumidEllipsoids`], [`PaintedHumidity`], [`Terrain`], [`HeatSource`] and those of your own.
 //! - [`wind`]: a profile over height that moves everything by exact fractions of cells.
 //! - [`CloudDensity`]: the weighted mean over space and time, between steps too; [`ball_density`]: equation (3) on a grid.
+//! - [`ball_grid`]: the same of any list of balls.
 //! - [`sun_depth`]: the light volume, how much cloud lies between each cell and the sun.
 //! - [`mod@cloud_light`]: the light in every cell, what was scattered often included, for renderers that march.
+//! - [`CloudMatter`]: what all of this hands to renderers: a grid of extinction with its place, and its balls.
 //! - [`Metaballs`]: lists of balls for splatting and for other programs.
 //! - [`mod@reference`]: single scattering by marching and all orders by Monte Carlo, to judge renderers by.
 //!
 //! x is east, y north, z the height; lengths are cells of the grid and times are steps, where nothing else is said.
 
 pub mod automaton;
+pub mod ball_grid;
 pub mod ball_lattice;
 pub mod bit_field;
 pub mod cloud_light;
@@ -25,6 +28,7 @@ mod ellipsoids;
 mod error;
 mod fields;
 pub mod grid_size;
+pub mod matter;
 mod metaballs;
 mod narrow;
 pub mod params;
@@ -43,6 +47,7 @@ pub mod vapour;
 pub mod wind;
 
 pub use automaton::{Automaton, AutomatonConfig};
+pub use ball_grid::BallGrid;
 pub use ball_lattice::{ball_density, ball_density_into};
 pub use bit_field::BitField;
 pub use cloud_light::{CloudLight, cloud_light};
@@ -51,6 +56,7 @@ pub use edges::Edges;
 pub use ellipsoids::{Ellipsoid, EllipsoidSupply, HumidEllipsoids};
 pub use error::CloudError;
 pub use fields::CloudFields;
+pub use matter::CloudMatter;
 pub use metaballs::{Metaball, Metaballs};
 pub use params::{CloudParams, VapourPattern};
 pub use probability::{Probabilities, ProbabilityLayer, ProbabilityRow};

@@ -146,6 +146,14 @@ impl CloudSimulation {
         Ok(())
     }
 
+    /// Extinction (1/m) in the middle of each cell's ball, 0 where there is none.
+    pub(crate) fn peaks_per_m(&mut self, fraction: f32) -> Result<Grid3<f32>, CloudError> {
+        let scale = narrow(self.ball_extinction_per_m());
+        let mut peaks = self.share(fraction)?.clone();
+        peaks.cells_mut().iter_mut().for_each(|peak| *peak *= scale);
+        Ok(peaks)
+    }
+
     /// One metaball for each cell with cloud, in metres from the grid's low corner, height above sea level.
     ///
     /// # Errors

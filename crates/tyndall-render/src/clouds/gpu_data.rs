@@ -1,6 +1,6 @@
 //! The clouds' uniform and how it follows from a scene.
 
-use tyndall_clouds::{CloudParams, Edges};
+use tyndall_clouds::{CloudMatter, Edges};
 use tyndall_scene::{CloudsParams, Orders};
 
 use super::skip::BLOCK_CELLS;
@@ -23,29 +23,32 @@ pub struct Clouds {
     pub all_orders: u32,
     pub detail: f32,
     pub block_cells: f32,
+    pub low_corner_m: [f32; 2],
+    pub padding: [f32; 2],
 }
 
 impl Clouds {
-    /// From how clouds are drawn and what they consist of.
+    /// From how clouds are drawn, what they consist of, and the extinction deep in them (1/m).
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
-    pub fn new(drawn: &CloudsParams, params: &CloudParams) -> Self {
-        let grid = &params.grid;
-        let size = [grid.cells_east, grid.cells_north, grid.cells_up].map(|cells| cells as f32);
+    pub fn new(drawn: &CloudsParams, matter: &CloudMatter, full_per_m: f64) -> Self {
+        let [west, south, floor_m] = matter.low_corner_m;
         Self {
-            size,
-            cell_m: grid.cell_m as f32,
+            size: matter.extinction_per_m.size().map(|cells| cells as f32),
+            cell_m: matter.cell_m as f32,
             asymmetry: [drawn.forward_asymmetry, drawn.backward_asymmetry].map(|g| g as f32),
             forward_weight: drawn.forward_weight as f32,
             transport: transport(drawn) as f32,
-            floor_m: grid.floor_m as f32,
-            ceiling_m: (grid.floor_m + f64::from(grid.cells_up) * grid.cell_m) as f32,
+            floor_m: floor_m as f32,
+            ceiling_m: (floor_m + matter.extent_m()[2]) as f32,
             reach_m: (1e3 * drawn.reach_km) as f32,
-            full_per_m: params.matter.extinction_per_m as f32,
-            wraps: u32::from(grid.edges == Edges::Wrap),
+            full_per_m: full_per_m as f32,
+            wraps: u32::from(matter.edges == Edges::Wrap),
             all_orders: u32::from(drawn.orders == Orders::All),
             detail: drawn.detail as f32,
             block_cells: BLOCK_CELLS as f32,
+            low_corner_m: [west as f32, south as f32],
+            padding: [0.0; 2],
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Clouds in the frame: the paper's automaton, marched at every pixel. WGSL: `shaders/clouds`.
 //!
-//! The simulation and the light in its cells come from `tyndall_clouds` and stay on the CPU until they change. A frame marches
+//! What the clouds consist of comes from [`source`], the light in its cells from `tyndall_clouds`, and both stay until they
+//! change. A frame marches
 //! them from the camera to whatever was drawn before, and lays the result over it: sunlight scattered once by its exact phase
 //! function, sunlight scattered more often by diffusion, light of sky and ground as at sea level, and the air between cloud and camera.
 //!
@@ -8,6 +9,7 @@
 
 pub mod gpu_data;
 mod skip;
+pub mod source;
 mod volume;
 
 use tyndall_gpu::wgpu::{self, BufferUsages, TextureUsages};
@@ -17,6 +19,7 @@ use tyndall_scene::Scene;
 use crate::sky::SkyTables;
 use crate::{FrameTarget, RenderError, RendererConfig};
 use gpu_data::{Clouds, transport};
+use source::{CloudSource, CloudSourceRequest};
 use volume::{CloudVolume, VolumeRequest};
 
 /// The pipeline, the simulation and its textures.
@@ -25,6 +28,7 @@ pub struct CloudRenderer {
     pipeline: RenderPipeline,
     uniform: Buffer,
     sampler: wgpu::Sampler,
+    source: CloudSource,
     volume: CloudVolume,
     /// Copy of the frame without clouds: blending 32-bit floats is not everywhere possible.
     behind: Option<Texture>,
@@ -77,6 +81,7 @@ impl CloudRenderer {
             pipeline,
             uniform: gpu.buffer("clouds", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
             sampler,
+            source: CloudSource::default(),
             volume: CloudVolume::default(),
             behind: None,
         })
@@ -93,12 +98,12 @@ impl CloudRenderer {
         surroundings: CloudSurroundings<'_>,
         target: &FrameTarget,
     ) -> Result<Option<CloudDrawData>, RenderError> {
-        let Some(params) = scene.cloud_params() else { return Ok(None) };
-        let uniform = Clouds::new(&scene.clouds, &params);
+        let Some(source) = CloudSourceRequest::of(scene) else { return Ok(None) };
+        let matter = self.source.matter(&source)?;
+        let uniform = Clouds::new(&scene.clouds, &matter, scene.cloud_matter.extinction_per_m);
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let request = VolumeRequest {
-            params,
-            time_s: scene.clouds.time_s,
+            matter,
             to_sun: scene.sun_direction()?.unit().to_array(),
             transport: transport(&scene.clouds),
         };

@@ -1,6 +1,8 @@
 //! The clouds' matter and light as 3-D textures, made by the CPU and kept while what they follow from stays the same.
 
-use tyndall_clouds::{CloudLight, CloudParams, CloudSimulation, cloud_light};
+use std::sync::Arc;
+
+use tyndall_clouds::{CloudLight, CloudMatter, cloud_light};
 use tyndall_core::grid::Grid3;
 use tyndall_gpu::wgpu::{self, TextureFormat, TextureUsages};
 use tyndall_gpu::{Gpu, Texture, TextureDesc};
@@ -11,17 +13,27 @@ use crate::RenderError;
 /// Largest optical depth that is stored: a half float holds it, and no light is left beyond.
 const MOST_DEPTH: f32 = 6e4;
 
-/// What the cells follow from.
-#[derive(Clone, Debug, PartialEq)]
+/// What the textures follow from.
+#[derive(Clone, Debug)]
 pub(super) struct VolumeRequest {
-    /// The simulation.
-    pub(super) params: CloudParams,
-    /// Time (s) since the end of the warm-up.
-    pub(super) time_s: f64,
+    /// The clouds.
+    pub(super) matter: Arc<CloudMatter>,
     /// Direction to the sun.
     pub(super) to_sun: [f64; 3],
     /// One less the mean cosine of scattering.
     pub(super) transport: f64,
+}
+
+impl VolumeRequest {
+    /// Whether the clouds are the same object as those of another request; their light may differ.
+    fn has_matter_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.matter, &other.matter)
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        let light = |request: &Self| (request.to_sun, request.transport);
+        self.has_matter_of(other) && light(self) == light(other)
+    }
 }
 
 /// Textures of the clouds.
@@ -33,11 +45,9 @@ pub(super) struct CloudTextures {
     pub(super) skips: Texture,
 }
 
-/// The simulation, its matter at a moment, and the textures.
+/// The textures of the last request.
 #[derive(Debug, Default)]
 pub(super) struct CloudVolume {
-    simulation: Option<CloudSimulation>,
-    matter: Option<(CloudParams, u64, Grid3<f32>)>,
     textures: Option<(VolumeRequest, CloudTextures)>,
 }
 
@@ -46,63 +56,29 @@ impl CloudVolume {
     pub(super) fn update(&mut self, gpu: &Gpu, request: &VolumeRequest) -> Result<&CloudTextures, RenderError> {
         let held = self.textures.take();
         let textures = match held {
-            Some((last, textures)) if last == *request => textures,
+            Some((last, textures)) if last.is(request) => textures,
             last => {
-                let before = self.matter.as_ref().map(|(params, time, _)| (params.clone(), *time));
-                self.update_matter(request)?;
-                let same_matter = before == self.matter.as_ref().map(|(params, time, _)| (params.clone(), *time));
-                let skips = last.filter(|_| same_matter).map(|(_, textures)| textures.skips);
-                self.upload(gpu, request, skips)?
+                let skips = last.filter(|(last, _)| last.has_matter_of(request)).map(|(_, textures)| textures.skips);
+                upload(gpu, request, skips)?
             }
         };
         Ok(&self.textures.insert((request.clone(), textures)).1)
     }
-
-    /// The extinction at the moment that was asked for.
-    fn update_matter(&mut self, request: &VolumeRequest) -> Result<(), RenderError> {
-        let VolumeRequest { params, time_s, .. } = request;
-        let key = (params, time_s.to_bits());
-        if self.matter.as_ref().is_some_and(|(params, time, _)| (params, *time) == key) {
-            return Ok(());
-        }
-        let earlier = self.simulation.take().filter(|known| known.params() == params);
-        let (steps, fraction) = moment(time_s / params.grid.step_s);
-        let wanted = params.grid.warm_up_steps + steps;
-        let mut simulation = match earlier.filter(|known| known.automaton().step_count() <= wanted) {
-            Some(known) => known,
-            None => CloudSimulation::new(params)?,
-        };
-        simulation.advance(wanted - simulation.automaton().step_count());
-        let extinction = simulation.extinction_per_m(fraction)?;
-        self.matter = Some((params.clone(), time_s.to_bits(), extinction));
-        self.simulation = Some(simulation);
-        Ok(())
-    }
-
-    fn upload(&self, gpu: &Gpu, request: &VolumeRequest, skips: Option<Texture>) -> Result<CloudTextures, RenderError> {
-        let empty = Grid3::filled([1, 1, 1], 0.0);
-        let extinction = self.matter.as_ref().map_or(&empty, |(_, _, extinction)| extinction);
-        let grid = &request.params.grid;
-        let light = cloud_light(extinction, grid.cell_m, request.to_sun, request.transport, grid.edges)?;
-        let texels = texels(extinction, &light);
-        let bytes = bytemuck::cast_slice::<_, u8>(&texels);
-        let cells = filled(gpu, "clouds", (extinction.size(), TextureFormat::Rgba16Float, 8), bytes)?;
-        let skips = if let Some(skips) = skips {
-            skips
-        } else {
-            let blocks = skip_cells(extinction, grid.edges);
-            filled(gpu, "clouds' gaps", (blocks.size(), TextureFormat::R8Uint, 1), blocks.cells())?
-        };
-        Ok(CloudTextures { cells, skips })
-    }
 }
 
-/// Whole steps and the share of the next, of which the simulation shows the time between its last two: the share 1 is the
-/// last step itself.
-#[expect(clippy::cast_possible_truncation, reason = "times and steps have small ranges")]
-fn moment(steps: f64) -> (u32, f32) {
-    let last = steps.ceil();
-    (last as u32, (1.0 - (last - steps)) as f32)
+fn upload(gpu: &Gpu, request: &VolumeRequest, skips: Option<Texture>) -> Result<CloudTextures, RenderError> {
+    let CloudMatter { extinction_per_m, cell_m, edges, .. } = &*request.matter;
+    let light = cloud_light(extinction_per_m, *cell_m, request.to_sun, request.transport, *edges)?;
+    let texels = texels(extinction_per_m, &light);
+    let bytes = bytemuck::cast_slice::<_, u8>(&texels);
+    let cells = filled(gpu, "clouds", (extinction_per_m.size(), TextureFormat::Rgba16Float, 8), bytes)?;
+    let skips = if let Some(skips) = skips {
+        skips
+    } else {
+        let blocks = skip_cells(extinction_per_m, *edges);
+        filled(gpu, "clouds' gaps", (blocks.size(), TextureFormat::R8Uint, 1), blocks.cells())?
+    };
+    Ok(CloudTextures { cells, skips })
 }
 
 /// Matter and light of the cells as the bits of half floats.
@@ -131,16 +107,4 @@ fn filled(
     };
     gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
     Ok(texture)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn moments_are_shares_of_the_step_that_ends_next() {
-        assert_eq!(moment(0.0), (0, 1.0), "the end of the warm-up");
-        assert_eq!(moment(3.0), (3, 1.0), "a whole step");
-        assert_eq!(moment(2.25), (3, 0.25), "a quarter of the third");
-    }
 }
