@@ -8,4 +8,5 @@ mod probe;
 mod program;
 mod progress;
 mod refusals;
+mod simulate;
 mod tables;

@@ -10,6 +10,7 @@ use crate::params::ParamsArguments;
 use crate::presets::PresetsArguments;
 use crate::probe::ProbeArguments;
 use crate::render::RenderArguments;
+use crate::simulate::SimulateArguments;
 use crate::validate::ValidateArguments;
 
 const ABOUT: &str = "Renders skies from scene files, without a window and without a GPU if need be.";
@@ -48,6 +49,8 @@ pub enum Subcommand {
     Cubemap(CubemapArguments),
     /// Compute values at points and directions of your choice
     Probe(ProbeArguments),
+    /// Make steps of what a scene simulates, and write its state
+    Simulate(SimulateArguments),
     /// Tell how far the tables are from Monte-Carlo, in per cent, on your own scene
     Validate(ValidateArguments),
     /// List the parameters of scenes: default, unit, range, what each does

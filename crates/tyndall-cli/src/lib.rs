@@ -1,7 +1,7 @@
 //! The command line program `tyndall`: renders scene files without a window.
 //!
-//! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`probe`], [`validate`], [`params`], [`schema`],
-//! [`presets`], [`doctor`]. What they share: [`exit`] (the
+//! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`probe`], [`simulate`], [`validate`], [`params`],
+//! [`schema`], [`presets`], [`doctor`]. What they share: [`exit`] (the
 //! codes that scripts and render farms go by), [`failure`] (which error ends with which code, and the one sentence that the
 //! user reads), [`scene_arguments`] (scene and device), [`values`] (what options take), [`interrupt`] (Ctrl-C and termination) and [`progress`].
 //!
@@ -26,6 +26,7 @@ pub mod progress;
 pub mod render;
 pub mod scene_arguments;
 pub mod schema;
+pub mod simulate;
 pub mod validate;
 pub mod values;
 
@@ -65,6 +66,7 @@ fn dispatch(subcommand: &Subcommand) -> Result<(), Failure> {
         Subcommand::Hdri(arguments) => hdri::run(arguments),
         Subcommand::Cubemap(arguments) => cubemap::run(arguments),
         Subcommand::Probe(arguments) => probe::run(arguments),
+        Subcommand::Simulate(arguments) => simulate::run(arguments),
         Subcommand::Validate(arguments) => validate::run(arguments),
         Subcommand::Params(arguments) => params::run(arguments),
         Subcommand::Schema => schema::run(),

@@ -2,6 +2,7 @@
 
 use crate::CloudError;
 use crate::bit_field::BitField;
+use crate::fnv::fnv1a;
 use crate::grid_size::check_size;
 
 /// hum, act and cld of the paper's section 3.2.
@@ -68,9 +69,7 @@ impl CloudFields {
     /// 64-bit FNV-1a hash of [`CloudFields::to_bytes`]: equal states have equal hashes on every system.
     #[must_use]
     pub fn hash(&self) -> u64 {
-        self.to_bytes()
-            .iter()
-            .fold(0xCBF2_9CE4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3))
+        fnv1a(&self.to_bytes())
     }
 
     /// Number of cells with hum, act and cld set.

@@ -27,6 +27,7 @@ mod edges;
 mod ellipsoids;
 mod error;
 mod fields;
+mod fnv;
 pub mod grid_size;
 pub mod matter;
 mod metaballs;

@@ -1,8 +1,12 @@
 //! What users choose of the clouds: four groups of parameters, ready for a scene.
 
-use tyndall_core::{choices, params};
+use std::fmt::Write as _;
+
+use tyndall_core::{ParamSet, choices, params};
 
 use crate::edges::Edges;
+use crate::fnv::fnv1a;
+use crate::narrow::narrow;
 
 choices! {
     /// How humid air is laid out.
@@ -115,4 +119,75 @@ pub struct CloudParams {
     pub wind: CloudWindParams,
     /// Matter.
     pub matter: CloudMatterParams,
+}
+
+/// Parameters of [`CloudGridParams`] that no step depends on.
+const NOT_STEPPED: [&str; 2] = ["floor_m", "warm_up_steps"];
+
+impl CloudParams {
+    /// The groups with their names in scene files.
+    #[must_use]
+    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 4] {
+        [
+            ("cloud_grid", &self.grid),
+            ("cloud_vapour", &self.vapour),
+            ("cloud_wind", &self.wind),
+            ("cloud_matter", &self.matter),
+        ]
+    }
+
+    /// Hash of the parameters that steps follow from: equal ones take one state to the same next state. The matter, which is
+    /// made of states, does not count.
+    #[must_use]
+    pub fn step_hash(&self) -> u64 {
+        let mut text = String::new();
+        for (group, set) in self.groups().into_iter().filter(|(group, _)| *group != "cloud_matter") {
+            for (index, info) in set.info().iter().enumerate().filter(|(_, info)| !NOT_STEPPED.contains(&info.name)) {
+                // Adding zero turns -0 into 0, which is equal to it.
+                let value = info.format(set.get(index) + 0.0);
+                // Writing to a String cannot fail.
+                let _ = writeln!(text, "{group}.{}={value}", info.name);
+            }
+        }
+        fnv1a(text.as_bytes())
+    }
+
+    /// A time (s) as the step that ends next and how much of it has passed (0 to 1): a whole number of steps is the whole of
+    /// the last one.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "a cast to u32 saturates, which no time in range reaches")]
+    pub fn moment(&self, time_s: f64) -> (u32, f32) {
+        let steps = time_s / self.grid.step_s;
+        let last = steps.ceil();
+        (last as u32, narrow(1.0 - (last - steps)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_counts_what_steps_follow_from_and_nothing_else() {
+        let base = CloudParams::default();
+        let change = |change: fn(&mut CloudParams)| {
+            let mut params = base.clone();
+            change(&mut params);
+            params.step_hash() == base.step_hash()
+        };
+        assert!(change(|params| params.grid.floor_m += 100.0), "the floor is only drawn");
+        assert!(change(|params| params.matter.threshold += 0.1), "matter is only drawn");
+        assert!(!change(|params| params.grid.seed += 1), "the seed");
+        assert!(!change(|params| params.vapour.cover += 0.1), "vapour");
+        assert!(!change(|params| params.wind.floor_from_deg += 0.1), "wind");
+    }
+
+    #[test]
+    fn moments_are_shares_of_the_step_that_ends_next() {
+        let params = CloudParams::default();
+        let moment = |steps: f64| params.moment(steps * params.grid.step_s);
+        assert_eq!(moment(0.0), (0, 1.0), "the end of the warm-up");
+        assert_eq!(moment(3.0), (3, 1.0), "a whole step");
+        assert_eq!(moment(2.25), (3, 0.25), "a quarter of the third");
+    }
 }

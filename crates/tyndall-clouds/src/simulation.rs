@@ -190,8 +190,7 @@ impl CloudSimulation {
 
 /// Every parameter against its declared range.
 fn check(params: &CloudParams) -> Result<(), CloudError> {
-    let sets: [&dyn tyndall_core::ParamSet; 4] = [&params.grid, &params.vapour, &params.wind, &params.matter];
-    for set in sets {
+    for (_, set) in params.groups() {
         for (index, info) in set.info().iter().enumerate() {
             let limits = (*info.range.start(), *info.range.end());
             in_range(info.name, set.get(index), limits, "")?;

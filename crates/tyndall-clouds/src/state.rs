@@ -1,6 +1,7 @@
 //! State and density as named arrays, for files.
 //!
-//! `cells` has one byte per cell (hum + 2 act + 4 cld), `hash` its FNV-1a hash, `cld_history` one byte per cell whose bit n is
+//! `cells` has one byte per cell (hum + 2 act + 4 cld), `hash` its FNV-1a hash, `seed` and `params` the seed and the hash of
+//! the parameters that the steps followed from ([`CloudParams::step_hash`]), `cld_history` one byte per cell whose bit n is
 //! the cloud n steps ago, `wind` the displacement of each height in 2^-32 cells, `layer_n` what moves in layer n of the
 //! probabilities. Everything else is in the parameters: a simulation made of the same ones goes on with the same bits.
 
@@ -14,6 +15,7 @@ use crate::error::CloudError;
 use crate::fields::CloudFields;
 use crate::grid_size::cells;
 use crate::narrow::narrow;
+use crate::params::CloudParams;
 use crate::simulation::CloudSimulation;
 
 /// Version of the arrays' meaning.
@@ -32,6 +34,8 @@ impl CloudSimulation {
         push("version", vec![], ArrayData::U64(vec![VERSION]));
         push("step", vec![], ArrayData::U64(vec![u64::from(automaton.step_count())]));
         push("hash", vec![], ArrayData::U64(vec![automaton.fields().hash()]));
+        push("seed", vec![], ArrayData::U64(vec![u64::from(self.params().grid.seed)]));
+        push("params", vec![], ArrayData::U64(vec![self.params().step_hash()]));
         push("cells", size.to_vec(), ArrayData::U8(automaton.fields().to_bytes()));
         push("cld_history", size.to_vec(), ArrayData::U8(history_bytes(self.density_history().history(), size)));
         let wind: Vec<i64> = automaton.wind().raw_displacements().iter().flatten().copied().collect();
@@ -43,11 +47,29 @@ impl CloudSimulation {
         arrays
     }
 
-    /// Takes up a state that a simulation with the same parameters gave; nothing changes when it is refused.
+    /// A simulation that goes on from a state; of the warm-up no step is made.
+    ///
+    /// # Errors
+    /// As for [`CloudSimulation::new`] and [`CloudSimulation::restore`].
+    pub fn from_state(params: &CloudParams, arrays: &NamedArrays) -> Result<Self, CloudError> {
+        let mut simulation = Self::cold(params)?;
+        simulation.restore(arrays)?;
+        Ok(simulation)
+    }
+
+    /// Whether a state's steps followed from the same parameters, so that it goes on as it would have by itself.
+    ///
+    /// # Errors
+    /// [`CloudError::Array`] when the state does not say.
+    pub fn continues(params: &CloudParams, arrays: &NamedArrays) -> Result<bool, CloudError> {
+        Ok(one_number(arrays, "params")? == params.step_hash())
+    }
+
+    /// Takes up a state that a simulation of the same grid and with as many bubbles gave; nothing changes when it is refused.
     ///
     /// # Errors
     /// [`CloudError::Array`] when an array is absent, of another kind, or does not have the hash that the file says;
-    /// [`CloudError::OtherSize`] when the grid is another.
+    /// [`CloudError::OtherSize`] when the grid is another, [`CloudError::WrongLength`] when the bubbles are.
     pub fn restore(&mut self, arrays: &NamedArrays) -> Result<(), CloudError> {
         let version = one_number(arrays, "version")?;
         if version != VERSION {
@@ -173,7 +195,6 @@ fn history_from(bytes: &[u8], size: [usize; 3], count: usize) -> VecDeque<BitFie
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::CloudParams;
 
     fn params() -> CloudParams {
         let mut params = CloudParams::default();
@@ -195,6 +216,20 @@ mod tests {
             assert_eq!(first.automaton().fields().hash(), second.automaton().fields().hash(), "bits");
         }
         assert!(first.automaton().fields().counts()[2] > 0, "there are clouds");
+    }
+
+    #[test]
+    fn a_state_knows_whether_its_steps_followed_from_the_same_parameters() {
+        let state = CloudSimulation::cold(&params()).unwrap().state();
+        assert_eq!(CloudSimulation::continues(&params(), &state), Ok(true), "the same");
+        let mut windy = params();
+        windy.wind.floor_speed_m_s += 1.0;
+        assert_eq!(CloudSimulation::continues(&windy, &state), Ok(false), "another wind");
+        assert!(CloudSimulation::from_state(&windy, &state).is_ok(), "which may take it up all the same");
+        let mut wide = params();
+        wide.grid.cells_east += 1;
+        let text = CloudSimulation::from_state(&wide, &state).unwrap_err().to_string();
+        assert_eq!(text, "array `cells` has [48, 40, 34] cells; the grid has [49, 40, 34]");
     }
 
     #[test]

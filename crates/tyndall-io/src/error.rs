@@ -126,6 +126,16 @@ pub enum IoError {
         /// Width and height.
         size_px: [u32; 2],
     },
+    /// A grid that no volume file can hold.
+    #[error("cannot write {}: grid `{grid}`: {problem}", .path.display())]
+    Volume {
+        /// The destination.
+        path: PathBuf,
+        /// Name of the grid.
+        grid: String,
+        /// What is wrong with it.
+        problem: String,
+    },
     /// A metadata entry that no file can hold.
     #[error("metadata entry {name:?} cannot be written: {problem}")]
     Metadata {

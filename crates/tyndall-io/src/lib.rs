@@ -6,6 +6,7 @@
 //! - [`read_picture_header`], [`is_finished`]: what a file says about itself, without decoding its pixels.
 //! - [`TableFolder`]: tables kept between runs, in the user's cache.
 //! - [`write_npz`], [`read_npz`], [`write_npy`], [`read_npy`]: arrays by name, as `NumPy` has them.
+//! - [`write_vdb`]: volumes as sparse `OpenVDB` grids.
 //! - [`atomic`]: a file appears under its name complete or not at all.
 //!
 //! Nothing here knows a GPU; a simulation's user has the writers without one. Not done: tiles, several parts, deep
@@ -25,6 +26,7 @@ mod npz;
 mod picture;
 mod png_write;
 mod table_folder;
+mod vdb;
 
 pub use destination::Destination;
 pub use error::IoError;
@@ -36,3 +38,4 @@ pub use npz::{read_npy, read_npz, write_npy, write_npz};
 pub use picture::{MAX_PIXELS, MAX_SIDE_PX, Picture, PictureMetadata, Projection, check_size};
 pub use png_write::{write_png8, write_png16};
 pub use table_folder::{CACHE_VARIABLE, TableFolder};
+pub use vdb::{VdbGrid, VdbOptions, VdbPacking, VdbReport, write_vdb};

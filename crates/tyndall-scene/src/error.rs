@@ -2,6 +2,7 @@
 
 use std::{io, path::PathBuf};
 
+use tyndall_clouds::CloudError;
 use tyndall_core::ParamError;
 
 use crate::{Place, file, scene::MOST_CLOUD_CELLS};
@@ -77,6 +78,12 @@ pub enum SceneError {
         /// Cells east, north and up.
         size: [u32; 3],
     },
+    /// The clouds' parameters do not fit together, or a state of clouds is not that of this scene.
+    #[error(transparent)]
+    Clouds(#[from] CloudError),
+    /// Steps were asked of a scene in which nothing moves.
+    #[error("nothing in the scene goes on in steps; `clouds.kind` = \"automaton\" does")]
+    NothingMoves,
     /// The algorithm for the sun's position refused its input.
     #[error("the sun's position cannot be computed: {reason}")]
     SunPosition {
@@ -199,12 +206,16 @@ impl SceneError {
                 ["cloud_grid.cells_east", "cloud_grid.cells_north", "cloud_grid.cells_up"].map(str::to_owned).to_vec()
             }
             Self::SunPosition { .. } => vec!["sun.position".to_owned()],
+            Self::NothingMoves => vec!["clouds.kind".to_owned()],
             Self::FormatMissing | Self::FormatUnknown { .. } => vec!["format".to_owned()],
             Self::Syntax { field, .. } => field.iter().cloned().collect(),
             Self::At { problem, .. } => problem.fields(),
-            Self::NotText | Self::TooLarge { .. } | Self::Folder { .. } | Self::Read { .. } | Self::Write { .. } => {
-                vec![]
-            }
+            Self::Clouds(_)
+            | Self::NotText
+            | Self::TooLarge { .. }
+            | Self::Folder { .. }
+            | Self::Read { .. }
+            | Self::Write { .. } => vec![],
         }
     }
 }

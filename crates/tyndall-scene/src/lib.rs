@@ -8,6 +8,7 @@
 //! - [`schema`] and [`markdown_table`]: the format for editors and for readers.
 //! - [`sun`]: direction of the sun from angles or from date, time and place.
 //! - [`landscape`]: heights of hills and mountains.
+//! - [`SceneSimulation`]: what goes on in steps, with states that are taken out and put back.
 //! - [`camera`]: axes, rays and matrices of the camera, and how it moves.
 
 pub mod astronomy;
@@ -24,6 +25,7 @@ pub mod params;
 mod place;
 mod preset;
 mod scene;
+mod simulation;
 pub mod sun;
 
 pub use docs::{markdown_table, schema};
@@ -38,6 +40,7 @@ pub use params::{
 pub use place::Place;
 pub use preset::{Preset, presets};
 pub use scene::Scene;
+pub use simulation::SceneSimulation;
 pub use sun::SunDirection;
 pub use tyndall_clouds::params::{CloudGridParams, CloudMatterParams, CloudParams, CloudVapourParams, CloudWindParams};
 pub use tyndall_scattering::Atmosphere;

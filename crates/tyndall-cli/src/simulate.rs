@@ -1,0 +1,188 @@
+//! `tyndall simulate`: makes steps of what a scene simulates, and writes its state.
+//!
+//! A state is an NPZ file with everything that steps change. A simulation that goes on from it makes the same bits as one that
+//! never stopped, on any number of threads.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use rayon::ThreadPoolBuilder;
+use serde_json::json;
+use tyndall_core::array::NamedArrays;
+use tyndall_io::atomic::check_writable;
+use tyndall_io::{Destination, IoError, read_npz, write_npz};
+use tyndall_scene::SceneSimulation;
+
+use crate::interrupt::Interrupt;
+use crate::progress::{Progress, ProgressFormat, Stage};
+use crate::scene_arguments::SceneArguments;
+use crate::{Exit, Failure, output};
+
+/// How often progress is told.
+const TELLING: Duration = Duration::from_millis(100);
+
+const EXAMPLES: &str = "\
+Examples:
+  tyndall simulate preset:cumulus -o ready.npz
+  tyndall simulate preset:cumulus --steps 200 -o later.npz
+  tyndall simulate preset:cumulus --state later.npz --steps 50 -o latest.npz
+  tyndall render preset:cumulus --state latest.npz -o latest.png
+
+The state holds an array `cells` of bytes, index [x, y, z] from west, south and
+below: hum + 2 act + 4 cld. Its hash is printed on standard output with the step.";
+
+/// What `tyndall simulate` takes.
+#[derive(Clone, Debug, clap::Args)]
+#[command(after_help = format!("{EXAMPLES}\n\n{}", Exit::table()))]
+pub struct SimulateArguments {
+    /// What to simulate.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// State to write after the last step: an .npz file; without it only its hash is told
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Steps to make; up to the moment that a picture of the scene shows unless given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
+    pub steps: Option<u32>,
+    /// Where the state comes from that it starts with.
+    #[command(flatten)]
+    pub start: StartArguments,
+    /// Threads to work on, which change nothing but the time; 0 takes all
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1024))]
+    pub threads: u16,
+    /// How to report progress
+    #[arg(long, value_name = "READER", value_enum, default_value_t)]
+    pub progress: ProgressFormat,
+}
+
+/// Where a simulation begins.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct StartArguments {
+    /// Start from a state that `tyndall simulate` wrote, in place of the beginning and the warm-up
+    #[arg(long, value_name = "FILE")]
+    pub state: Option<PathBuf>,
+}
+
+impl StartArguments {
+    /// The arrays of the state, if one is named.
+    ///
+    /// # Errors
+    /// When the file cannot be read or holds no arrays.
+    pub fn load(&self) -> Result<Option<NamedArrays>, Failure> {
+        let refusal = |error: IoError| Failure::Usage(error.to_string());
+        self.state.as_ref().map(|path| read_npz(path).map_err(refusal)).transpose()
+    }
+
+    /// `failure` with the name of the state, when that is what was refused.
+    pub(crate) fn blame(&self, failure: Failure) -> Failure {
+        match (&self.state, failure) {
+            (Some(path), Failure::Scene(error @ tyndall_scene::SceneError::Clouds(_))) => {
+                Failure::Usage(format!("cannot start from {}: {error}", path.display()))
+            }
+            (_, other) => other,
+        }
+    }
+}
+
+/// Simulates.
+///
+/// # Errors
+/// Everything that can be wrong with scene, state and file.
+pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
+    let mut progress = Progress::start(arguments.progress);
+    let done = simulate(arguments, &mut progress);
+    if let Err(failure) = &done {
+        progress.fail(failure);
+    }
+    done
+}
+
+fn simulate(arguments: &SimulateArguments, progress: &mut Progress) -> Result<(), Failure> {
+    let scene = arguments.scene.load()?;
+    if let Some(path) = &arguments.output {
+        check_place(path)?;
+    }
+    let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
+    let state = arguments.start.load()?;
+    let pool = ThreadPoolBuilder::new().num_threads(usize::from(arguments.threads)).build();
+    let pool = pool.map_err(|error| Failure::Usage(format!("cannot start {} threads: {error}", arguments.threads)))?;
+    pool.install(|| {
+        let mut simulation = scene.simulation(state.as_ref()).map_err(|error| arguments.start.blame(error.into()))?;
+        if !simulation.continues() {
+            progress.warn("the state comes from other parameters; from here on those of the scene count");
+        }
+        let steps = arguments.steps.unwrap_or_else(|| simulation.steps_to_picture());
+        let began = Instant::now();
+        make_steps(simulation.as_mut(), steps, &interrupt, progress)?;
+        let seconds = began.elapsed().as_secs_f64();
+        if let Some(path) = &arguments.output {
+            progress.stage(Stage::File)?;
+            write_state(path, simulation.as_ref(), &interrupt)?;
+        }
+        report(arguments, simulation.as_ref(), (steps, seconds), progress)
+    })
+}
+
+/// A place that takes an NPZ file, asked before any step is made.
+fn check_place(path: &Path) -> Result<(), Failure> {
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz")) {
+        return Err(Failure::Usage(format!("cannot write {}: a state is an .npz file", path.display())));
+    }
+    Ok(check_writable(path)?)
+}
+
+fn make_steps(
+    simulation: &mut dyn SceneSimulation,
+    steps: u32,
+    interrupt: &Interrupt,
+    progress: &Progress,
+) -> Result<(), Failure> {
+    let mut told = None::<Instant>;
+    for step in 0..steps {
+        interrupt.check()?;
+        if told.is_none_or(|told| told.elapsed() > TELLING) {
+            progress.share("simulating", f64::from(step) / f64::from(steps))?;
+            told = Some(Instant::now());
+        }
+        simulation.step();
+    }
+    interrupt.check()
+}
+
+fn write_state(path: &Path, simulation: &dyn SceneSimulation, interrupt: &Interrupt) -> Result<(), Failure> {
+    match write_npz(Destination::new(path).cancelled_by(interrupt.flag()), &simulation.state()) {
+        Err(IoError::Cancelled { path }) => {
+            interrupt.check()?;
+            Err(IoError::Cancelled { path }.into())
+        }
+        other => Ok(other?),
+    }
+}
+
+fn report(
+    arguments: &SimulateArguments,
+    simulation: &dyn SceneSimulation,
+    (steps, seconds): (u32, f64),
+    progress: &mut Progress,
+) -> Result<(), Failure> {
+    let (step, hash) = (simulation.step_count(), format!("{:#018x}", simulation.hash()));
+    if arguments.progress == ProgressFormat::Human {
+        output::print(&format!("step {step} hash {hash}\n"))?;
+    }
+    let file = arguments.output.as_ref().map(|path| path.display().to_string());
+    let (what, summary) = (simulation.name(), simulation.summary());
+    let place = file.as_ref().map_or_else(String::new, |file| format!("{file}: "));
+    let sentence = format!("{place}{what} after step {step}, {summary}; {steps} steps in {seconds:.2} s");
+    progress.finish(
+        &sentence,
+        json!({
+            "file": file,
+            "simulation": what,
+            "step": step,
+            "hash": hash,
+            "steps_made": steps,
+            "seconds": progress.seconds(),
+            "stepping_seconds": seconds,
+        }),
+    )
+}
