@@ -12,6 +12,7 @@ use crate::probe::ProbeArguments;
 use crate::render::RenderArguments;
 use crate::simulate::SimulateArguments;
 use crate::validate::ValidateArguments;
+use crate::volume::VolumeArguments;
 
 const ABOUT: &str = "Renders skies from scene files, without a window and without a GPU if need be.";
 
@@ -51,6 +52,8 @@ pub enum Subcommand {
     Probe(ProbeArguments),
     /// Make steps of what a scene simulates, and write its state
     Simulate(SimulateArguments),
+    /// Write the clouds of a scene as a VDB or NPZ grid, or as a list of metaballs
+    Volume(VolumeArguments),
     /// Tell how far the tables are from Monte-Carlo, in per cent, on your own scene
     Validate(ValidateArguments),
     /// List the parameters of scenes: default, unit, range, what each does

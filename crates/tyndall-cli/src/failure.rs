@@ -51,6 +51,7 @@ impl From<RenderError> for Failure {
         match error {
             RenderError::Gpu(error) => Self::Gpu(error),
             RenderError::Scene(error) => Self::Scene(error),
+            RenderError::Clouds(error) => Self::Scene(error.into()),
             other => Self::Render(other),
         }
     }

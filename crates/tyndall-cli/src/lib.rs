@@ -1,7 +1,7 @@
 //! The command line program `tyndall`: renders scene files without a window.
 //!
-//! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`probe`], [`simulate`], [`validate`], [`params`],
-//! [`schema`], [`presets`], [`doctor`]. What they share: [`exit`] (the
+//! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`probe`], [`simulate`], [`volume`], [`validate`],
+//! [`params`], [`schema`], [`presets`], [`doctor`]. What they share: [`exit`] (the
 //! codes that scripts and render farms go by), [`failure`] (which error ends with which code, and the one sentence that the
 //! user reads), [`scene_arguments`] (scene and device), [`values`] (what options take), [`interrupt`] (Ctrl-C and termination) and [`progress`].
 //!
@@ -29,6 +29,7 @@ pub mod schema;
 pub mod simulate;
 pub mod validate;
 pub mod values;
+pub mod volume;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -67,6 +68,7 @@ fn dispatch(subcommand: &Subcommand) -> Result<(), Failure> {
         Subcommand::Cubemap(arguments) => cubemap::run(arguments),
         Subcommand::Probe(arguments) => probe::run(arguments),
         Subcommand::Simulate(arguments) => simulate::run(arguments),
+        Subcommand::Volume(arguments) => volume::run(arguments),
         Subcommand::Validate(arguments) => validate::run(arguments),
         Subcommand::Params(arguments) => params::run(arguments),
         Subcommand::Schema => schema::run(),

@@ -11,7 +11,7 @@ use serde_json::json;
 use tyndall_core::array::NamedArrays;
 use tyndall_io::atomic::check_writable;
 use tyndall_io::{Destination, IoError, read_npz, write_npz};
-use tyndall_scene::SceneSimulation;
+use tyndall_scene::{Scene, SceneSimulation};
 
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, ProgressFormat, Stage};
@@ -64,13 +64,17 @@ pub struct StartArguments {
 }
 
 impl StartArguments {
-    /// The arrays of the state, if one is named.
+    /// The arrays of the state, if one is named; a warning when it is not quite the scene's own.
     ///
     /// # Errors
-    /// When the file cannot be read or holds no arrays.
-    pub fn load(&self) -> Result<Option<NamedArrays>, Failure> {
-        let refusal = |error: IoError| Failure::Usage(error.to_string());
-        self.state.as_ref().map(|path| read_npz(path).map_err(refusal)).transpose()
+    /// When the file cannot be read or holds no state, or the scene has nothing that would go on from it.
+    pub fn load(&self, scene: &Scene, progress: &Progress) -> Result<Option<NamedArrays>, Failure> {
+        let Some(path) = &self.state else { return Ok(None) };
+        let state = read_npz(path).map_err(|error: IoError| Failure::Usage(error.to_string()))?;
+        if !scene.continues(&state).map_err(|error| self.blame(error.into()))? {
+            progress.warn("the state comes from other parameters; from here on those of the scene count");
+        }
+        Ok(Some(state))
     }
 
     /// `failure` with the name of the state, when that is what was refused.
@@ -103,14 +107,11 @@ fn simulate(arguments: &SimulateArguments, progress: &mut Progress) -> Result<()
         check_place(path)?;
     }
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
-    let state = arguments.start.load()?;
+    let state = arguments.start.load(&scene, progress)?;
     let pool = ThreadPoolBuilder::new().num_threads(usize::from(arguments.threads)).build();
     let pool = pool.map_err(|error| Failure::Usage(format!("cannot start {} threads: {error}", arguments.threads)))?;
     pool.install(|| {
         let mut simulation = scene.simulation(state.as_ref()).map_err(|error| arguments.start.blame(error.into()))?;
-        if !simulation.continues() {
-            progress.warn("the state comes from other parameters; from here on those of the scene count");
-        }
         let steps = arguments.steps.unwrap_or_else(|| simulation.steps_to_picture());
         let began = Instant::now();
         make_steps(simulation.as_mut(), steps, &interrupt, progress)?;

@@ -83,6 +83,16 @@ pub enum CloudError {
         /// Side of a cell (m).
         cell_m: f64,
     },
+    /// A list of metaballs in JSON cannot be read.
+    #[error("line {line}, column {column}: {problem}")]
+    BallPlace {
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What is wrong.
+        problem: String,
+    },
     /// A line of a list of metaballs cannot be read.
     #[error("line {line}: {problem}")]
     BallLine {

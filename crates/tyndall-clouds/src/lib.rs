@@ -18,6 +18,7 @@
 
 pub mod automaton;
 pub mod ball_grid;
+mod ball_json;
 pub mod ball_lattice;
 pub mod bit_field;
 pub mod cloud_light;
@@ -63,7 +64,7 @@ pub use params::{CloudParams, VapourPattern};
 pub use probability::{Probabilities, ProbabilityLayer, ProbabilityRow};
 pub use simulation::CloudSimulation;
 pub use smoothing::SmoothingWindow;
-pub use state::{density_from_array, density_from_arrays};
+pub use state::{density_from_array, density_from_arrays, state_step};
 pub use statistics::CloudStatistics;
 pub use sun_depth::{sun_depth, sun_depth_into};
 pub use supply_layers::{HeatSource, PaintedHumidity, Terrain, TerrainLift};

@@ -20,6 +20,21 @@ pub struct Metaball {
 }
 
 impl Metaball {
+    /// From the numbers of a file in the order of [`COLUMNS`], or a sentence about what is wrong with them.
+    pub(crate) fn from_numbers(numbers: [f32; 5]) -> Result<Self, String> {
+        if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
+            return Err(format!("{number} is not a finite number"));
+        }
+        let [x, y, z, radius_m, extinction_per_m] = numbers;
+        if radius_m <= 0.0 {
+            return Err(format!("radius {radius_m} m must be above 0"));
+        }
+        if extinction_per_m < 0.0 {
+            return Err(format!("extinction {extinction_per_m} 1/m must not be below 0"));
+        }
+        Ok(Self { centre_m: [x, y, z], radius_m, extinction_per_m })
+    }
+
     /// Integral of extinction over the ball (m^2): how much light it takes in all, if that is little.
     #[must_use]
     pub fn mass_m2(&self) -> f64 {
@@ -41,6 +56,8 @@ pub struct Metaballs {
     pub balls: Vec<Metaball>,
 }
 
+/// The numbers of a ball in files, in their order.
+pub(crate) const COLUMNS: [&str; 5] = ["x_m", "y_m", "z_m", "radius_m", "extinction_per_m"];
 /// First line of the text form.
 const CSV_HEAD: &str = "x_m,y_m,z_m,radius_m,extinction_per_m";
 
@@ -96,20 +113,6 @@ impl Metaballs {
         text
     }
 
-    /// As JSON: the names of the columns, and one array of five numbers for each ball.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        let mut text = String::from("{\"columns\":[");
-        let names: Vec<_> = CSV_HEAD.split(',').map(|name| format!("\"{name}\"")).collect();
-        text += &names.join(",");
-        text += "],\"balls\":[\n";
-        for (index, Metaball { centre_m: [x, y, z], radius_m, extinction_per_m }) in self.balls.iter().enumerate() {
-            let end = if index + 1 < self.balls.len() { "," } else { "" };
-            let _ = writeln!(text, "[{x},{y},{z},{radius_m},{extinction_per_m}]{end}");
-        }
-        text + "]}\n"
-    }
-
     /// Reads what [`Metaballs::to_csv`] writes; empty lines and lines that begin with `#` are skipped.
     ///
     /// # Errors
@@ -133,22 +136,8 @@ fn ball_from_line(content: &str) -> Result<Metaball, String> {
     let [x, y, z, radius, extinction] = cells[..] else {
         return Err(format!("{} values in place of the five of {CSV_HEAD}", cells.len()));
     };
-    let number = |text: &str| match text.parse::<f32>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(format!("{text:?} is not a finite number")),
-    };
-    let ball = Metaball {
-        centre_m: [number(x)?, number(y)?, number(z)?],
-        radius_m: number(radius)?,
-        extinction_per_m: number(extinction)?,
-    };
-    if ball.radius_m <= 0.0 {
-        return Err(format!("radius {} m must be above 0", ball.radius_m));
-    }
-    if ball.extinction_per_m < 0.0 {
-        return Err(format!("extinction {} 1/m must not be below 0", ball.extinction_per_m));
-    }
-    Ok(ball)
+    let number = |text: &str| text.parse::<f32>().map_err(|_no_number| format!("{text:?} is not a finite number"));
+    Metaball::from_numbers([number(x)?, number(y)?, number(z)?, number(radius)?, number(extinction)?])
 }
 
 /// The whole part of a place counted in cubes.
@@ -176,20 +165,13 @@ mod tests {
     }
 
     #[test]
-    fn json_has_a_row_for_each_ball() {
-        let text = some().to_json();
-        assert_eq!(text.lines().count(), 42, "head, 40 balls, end");
-        assert!(text.starts_with("{\"columns\":[\"x_m\","), "{text}");
-    }
-
-    #[test]
     fn bad_lines_are_refused_with_number_and_reason() {
         for (line, reason) in [
             ("1,2,3,4", "4 values in place of the five"),
             ("1,2,x,4,5", "\"x\" is not a finite number"),
             ("1,2,3,0,5", "radius 0 m must be above 0"),
             ("1,2,3,4,-5", "extinction -5 1/m must not be below 0"),
-            ("1,2,inf,4,5", "\"inf\" is not a finite number"),
+            ("1,2,inf,4,5", "inf is not a finite number"),
         ] {
             let text = Metaballs::from_csv(&format!("{CSV_HEAD}\n# note\n{line}\n")).unwrap_err().to_string();
             assert!(text.starts_with("line 3: ") && text.contains(reason), "{text}");

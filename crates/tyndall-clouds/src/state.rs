@@ -75,8 +75,7 @@ impl CloudSimulation {
         if version != VERSION {
             return Err(wrong("version", format!("{version} is not known; this program reads {VERSION}")));
         }
-        let step = one_number(arrays, "step")?;
-        let step = u32::try_from(step).map_err(|_too_large| wrong("step", format!("{step} is above {}", u32::MAX)))?;
+        let step = state_step(arrays)?;
         let size = self.automaton().size();
         let fields = CloudFields::from_bytes(size, bytes(arrays, "cells", size)?)?;
         if fields.hash() != one_number(arrays, "hash")? {
@@ -92,6 +91,15 @@ impl CloudSimulation {
         self.automaton_mut().wind_mut().set_raw_displacements(&wind)?;
         self.density_history_mut().set_history(history)
     }
+}
+
+/// Steps that a state has behind it.
+///
+/// # Errors
+/// [`CloudError::Array`] when the state does not say, or the number is too large.
+pub fn state_step(arrays: &NamedArrays) -> Result<u32, CloudError> {
+    let step = one_number(arrays, "step")?;
+    u32::try_from(step).map_err(|_too_large| wrong("step", format!("{step} is above {}", u32::MAX)))
 }
 
 /// A density of a file: bytes and 16-bit numbers as shares of their largest, others as they are.

@@ -22,9 +22,6 @@ pub trait SceneSimulation: std::fmt::Debug + Send {
     /// Steps from where it began to the moment that a picture of the scene shows.
     fn steps_to_picture(&self) -> u32;
 
-    /// Whether it goes on as the simulation would have that its state comes from; always without a state.
-    fn continues(&self) -> bool;
-
     /// Hash of the cells: equal ones, equal states.
     fn hash(&self) -> u64;
 
@@ -47,6 +44,17 @@ impl Scene {
             _ => Err(SceneError::NothingMoves),
         }
     }
+
+    /// Whether the scene goes on from a state as the one would have that the state comes from.
+    ///
+    /// # Errors
+    /// [`SceneError::NothingMoves`] when the scene has no simulation; [`SceneError::Clouds`] when the state does not say.
+    pub fn continues(&self, state: &NamedArrays) -> Result<bool, SceneError> {
+        match (self.clouds.kind, self.cloud_params()) {
+            (CloudKind::Automaton, Some(params)) => Ok(CloudSimulation::continues(&params, state)?),
+            _ => Err(SceneError::NothingMoves),
+        }
+    }
 }
 
 /// Clouds by the automaton.
@@ -54,23 +62,16 @@ impl Scene {
 struct CloudRun {
     simulation: CloudSimulation,
     steps_to_picture: u32,
-    continues: bool,
 }
 
 impl CloudRun {
     fn new(params: &CloudParams, time_s: f64, state: Option<&NamedArrays>) -> Result<Self, SceneError> {
         let (steps, _) = params.moment(time_s);
         Ok(match state {
-            None => Self {
-                simulation: CloudSimulation::cold(params)?,
-                steps_to_picture: params.grid.warm_up_steps + steps,
-                continues: true,
-            },
-            Some(state) => Self {
-                simulation: CloudSimulation::from_state(params, state)?,
-                steps_to_picture: steps,
-                continues: CloudSimulation::continues(params, state)?,
-            },
+            None => {
+                Self { simulation: CloudSimulation::cold(params)?, steps_to_picture: params.grid.warm_up_steps + steps }
+            }
+            Some(state) => Self { simulation: CloudSimulation::from_state(params, state)?, steps_to_picture: steps },
         })
     }
 }
@@ -90,10 +91,6 @@ impl SceneSimulation for CloudRun {
 
     fn steps_to_picture(&self) -> u32 {
         self.steps_to_picture
-    }
-
-    fn continues(&self) -> bool {
-        self.continues
     }
 
     fn hash(&self) -> u64 {
@@ -132,7 +129,10 @@ mod tests {
         let mut whole = scene.simulation(None).unwrap();
         run(whole.as_mut(), 9);
         let mut rest = scene.simulation(Some(&whole.state())).unwrap();
-        assert!(rest.continues() && rest.step_count() == 9, "from the same parameters: {rest:?}");
+        assert!(
+            scene.continues(&whole.state()).unwrap() && rest.step_count() == 9,
+            "from the same parameters: {rest:?}"
+        );
         for simulation in [&mut whole, &mut rest] {
             run(simulation.as_mut(), 8);
         }
@@ -161,6 +161,7 @@ mod tests {
         assert_eq!(text, "array `cells` has [40, 33, 32] cells; the grid has [41, 33, 32]");
         let mut windy = cloudy();
         windy.cloud_wind.ceiling_speed_m_s += 1.0;
-        assert!(!windy.simulation(Some(&state)).unwrap().continues(), "another wind from here on");
+        assert!(!windy.continues(&state).unwrap(), "another wind from here on");
+        assert!(windy.simulation(Some(&state)).is_ok(), "which is allowed");
     }
 }

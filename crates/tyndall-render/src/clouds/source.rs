@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use tyndall_clouds::{CloudMatter, CloudParams, CloudSimulation};
+use tyndall_clouds::{CloudMatter, CloudParams, CloudSimulation, state_step};
+use tyndall_core::array::NamedArrays;
 use tyndall_scene::Scene;
 
 use crate::RenderError;
@@ -27,11 +28,17 @@ impl CloudSourceRequest {
 /// Makes the clouds' matter, and keeps it until something else is asked for.
 #[derive(Debug, Default)]
 pub struct CloudSource {
+    start: Option<NamedArrays>,
     simulation: Option<CloudSimulation>,
     last: Option<(CloudSourceRequest, Arc<CloudMatter>)>,
 }
 
 impl CloudSource {
+    /// Chooses a state from which the automaton starts, in place of its beginning and its warm-up: times count from there.
+    pub fn start_from(&mut self, state: Option<NamedArrays>) {
+        *self = Self { start: state, ..Self::default() };
+    }
+
     /// The matter that was asked for: the same `Arc` as last time when nothing has changed.
     ///
     /// # Errors
@@ -49,11 +56,13 @@ impl CloudSource {
     fn simulate(&mut self, request: &CloudSourceRequest) -> Result<CloudMatter, RenderError> {
         let CloudSourceRequest { params, time_s } = request;
         let earlier = self.simulation.take().filter(|known| known.params() == params);
-        let (steps, fraction) = moment(time_s / params.grid.step_s);
-        let wanted = params.grid.warm_up_steps + steps;
-        let mut simulation = match earlier.filter(|known| known.automaton().step_count() <= wanted) {
-            Some(known) => known,
-            None => CloudSimulation::new(params)?,
+        let (steps, fraction) = params.moment(*time_s);
+        let first = self.start.as_ref().map_or(Ok(params.grid.warm_up_steps), state_step)?;
+        let wanted = first.saturating_add(steps);
+        let mut simulation = match (earlier.filter(|known| known.automaton().step_count() <= wanted), &self.start) {
+            (Some(known), _) => known,
+            (None, Some(state)) => CloudSimulation::from_state(params, state)?,
+            (None, None) => CloudSimulation::new(params)?,
         };
         simulation.advance(wanted - simulation.automaton().step_count());
         let matter = CloudMatter::of_simulation(&mut simulation, fraction)?;
@@ -62,24 +71,9 @@ impl CloudSource {
     }
 }
 
-/// Whole steps and the share of the next, of which the simulation shows the time between its last two: the share 1 is the
-/// last step itself.
-#[expect(clippy::cast_possible_truncation, reason = "times and steps have small ranges")]
-fn moment(steps: f64) -> (u32, f32) {
-    let last = steps.ceil();
-    (last as u32, (1.0 - (last - steps)) as f32)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn moments_are_shares_of_the_step_that_ends_next() {
-        assert_eq!(moment(0.0), (0, 1.0), "the end of the warm-up");
-        assert_eq!(moment(3.0), (3, 1.0), "a whole step");
-        assert_eq!(moment(2.25), (3, 0.25), "a quarter of the third");
-    }
 
     #[test]
     fn the_same_request_gets_the_same_matter_and_another_moment_another() {
@@ -95,5 +89,20 @@ mod tests {
         assert_ne!(first.extinction_per_m, later.extinction_per_m, "a step and a half later");
         request.time_s = 0.0;
         assert_eq!(first, source.matter(&request).unwrap(), "and back again");
+    }
+
+    #[test]
+    fn a_state_takes_the_place_of_the_warm_up_and_times_count_from_it() {
+        let mut params = CloudParams::default();
+        (params.grid.cells_east, params.grid.cells_north, params.grid.cells_up) = (32, 32, 12);
+        params.grid.warm_up_steps = 12;
+        let later = CloudSourceRequest { params: params.clone(), time_s: 50.0 };
+        let expected = CloudSource::default().matter(&later).unwrap();
+        let mut half_way = CloudSimulation::new(&params).unwrap();
+        half_way.advance(1);
+        let mut source = CloudSource::default();
+        source.start_from(Some(half_way.state()));
+        let rest = CloudSourceRequest { time_s: 30.0, ..later };
+        assert_eq!(source.matter(&rest).unwrap(), expected, "a step of 20 s and 30 s are 50 s");
     }
 }
