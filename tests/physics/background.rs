@@ -3,11 +3,12 @@
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
+use tyndall_render::FrameTarget;
 use tyndall_render::sky::{OrdersRequest, OrdersTable, TableBuilding, Wake};
 use tyndall_scene::Scene;
 
 use crate::gpu_orders::small;
-use crate::render::{Studio, scene};
+use crate::render::{Studio, config, scene};
 
 const SIZE: [u32; 2] = [48, 32];
 
@@ -120,4 +121,83 @@ fn a_table_that_the_shaders_spread_over_frames_is_the_one_made_at_once() {
     let columns = studio.renderer.tables().columns();
     at_once.fill_on_gpu(studio.gpu, columns, &models[1], &small()).unwrap_or_else(|error| panic!("{error}"));
     assert!(spread == bytes(&studio, &at_once), "same bytes, though the columns changed meanwhile");
+}
+
+/// Draws until the clouds are those of the scene, as the app does.
+fn settled_clouds(studio: &mut Studio, woken: &Receiver<()>, scene: &Scene) -> Vec<[u8; 4]> {
+    loop {
+        let shown = picture(studio, scene);
+        if !studio.renderer.cloud_progress().building {
+            return shown;
+        }
+        woken.recv_timeout(PATIENCE).expect("clouds in time");
+    }
+}
+
+fn cloudy(changes: &[(&str, &str)]) -> Scene {
+    let small = [
+        ("sky.orders", "single"),
+        ("camera.pitch_deg", "50"),
+        ("cloud_grid.cells_east", "32"),
+        ("cloud_grid.cells_north", "32"),
+        ("cloud_grid.cells_up", "16"),
+        ("cloud_grid.warm_up_steps", "20"),
+    ];
+    scene("cumulus", &[&small, changes].concat())
+}
+
+#[test]
+fn clouds_made_beside_the_frames_give_the_bytes_of_those_that_were_waited_for() {
+    let (mut studio, woken) = impatient();
+    let bare = picture(&mut Studio::new(), &cloudy(&[("clouds.kind", "none")]));
+    let early = cloudy(&[]);
+    assert!(picture(&mut studio, &early) == bare, "the first frame does not wait either");
+    assert!(studio.renderer.cloud_progress().report.is_none(), "there are no clouds yet");
+    let first = settled_clouds(&mut studio, &woken, &early);
+    assert!(first == picture(&mut Studio::new(), &early), "the first picture at rest");
+
+    let later = cloudy(&[("clouds.time_s", "130")]);
+    assert!(picture(&mut studio, &later) == first, "the clouds before are shown meanwhile");
+    let last = settled_clouds(&mut studio, &woken, &later);
+    assert!(last == picture(&mut Studio::new(), &later) && last != first, "a later moment");
+    let report = studio.renderer.cloud_progress().report.clone().expect("figures");
+    // 130 s are six steps of 20 s and a half: shown within the seventh.
+    assert_eq!((report.steps, report.cells), (27, 32 * 32 * 16), "{report:?}");
+    assert!(report.statistics.cover > 0.0 && report.balls > 0, "{report:?}");
+}
+
+#[test]
+fn clouds_of_another_grid_are_shown_whole_until_the_new_ones_are_there() {
+    let (mut studio, woken) = impatient();
+    let first = settled_clouds(&mut studio, &woken, &cloudy(&[]));
+    let larger = cloudy(&[("cloud_grid.cells_east", "48"), ("cloud_grid.cell_m", "90")]);
+    assert!(picture(&mut studio, &larger) == first, "the old grid's clouds in the old grid's place");
+    let last = settled_clouds(&mut studio, &woken, &larger);
+    assert!(last == picture(&mut Studio::new(), &larger), "the new grid");
+}
+
+#[test]
+fn a_long_simulation_is_given_up_for_a_newer_one() {
+    let (mut studio, woken) = impatient();
+    // Minutes of steps, which nobody waits for in the end.
+    let endless = cloudy(&[
+        ("cloud_grid.warm_up_steps", "10000"),
+        ("cloud_grid.cells_north", "1024"),
+        ("cloud_grid.cells_east", "1024"),
+    ]);
+    picture(&mut studio, &endless);
+    let started = std::time::Instant::now();
+    let short = cloudy(&[]);
+    settled_clouds(&mut studio, &woken, &short);
+    assert!(started.elapsed() < Duration::from_secs(20), "{:?}", started.elapsed());
+    let refused =
+        cloudy(&[("cloud_wind.ceiling_speed_m_s", "100"), ("cloud_grid.cell_m", "1"), ("cloud_grid.step_s", "600")]);
+    let mut target = FrameTarget::new(studio.gpu, SIZE, config()).unwrap_or_else(|error| panic!("{error}"));
+    let error = loop {
+        match studio.renderer.render(studio.gpu, &refused, &mut target) {
+            Ok(_) => woken.recv_timeout(PATIENCE).expect("an answer in time"),
+            Err(error) => break error.to_string(),
+        }
+    };
+    assert!(error.contains("cells per step"), "{error}");
 }

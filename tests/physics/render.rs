@@ -30,7 +30,8 @@ impl Studio {
     }
 }
 
-fn config() -> RendererConfig {
+/// Frames in 32-bit floats, so that laws can be told from rounding.
+pub(crate) fn config() -> RendererConfig {
     RendererConfig { frame: FrameFormat::Float, ..RendererConfig::default() }
 }
 

@@ -175,6 +175,12 @@ impl CloudSimulation {
         Ok(Metaballs { balls })
     }
 
+    /// Cells with cloud at the moment that was asked for last: as many as [`CloudSimulation::metaballs`] has balls.
+    #[must_use]
+    pub fn ball_count(&self) -> usize {
+        self.share.cells().iter().filter(|share| **share > 0.0).count()
+    }
+
     /// Cover, heights and humidity.
     #[must_use]
     pub fn statistics(&self) -> CloudStatistics {
@@ -259,6 +265,7 @@ mod tests {
         let grid: f64 =
             simulation.extinction_per_m(1.0).unwrap().cells().iter().map(|v| f64::from(*v)).sum::<f64>() * cell_m3;
         let balls = simulation.metaballs(1.0).unwrap();
+        assert_eq!(balls.balls.len(), simulation.ball_count(), "balls are counted without a list");
         let list = balls.mass_m2();
         // In a wrapped grid nothing is lost but what spills over floor and ceiling.
         assert!((grid / list - 1.0).abs() < 0.005, "{grid} {list}");

@@ -3,6 +3,7 @@
 use tyndall_core::grid::Grid2;
 
 use crate::bit_field::{BitField, HEIGHTS_PER_LAYER};
+use crate::edges::Edges;
 use crate::fields::CloudFields;
 
 /// Share of humid cells at which one activated cell begins to fill the whole box: below, clouds stay small, above 0.2 one
@@ -109,6 +110,81 @@ pub fn area_and_perimeter(projection: &Grid2<bool>) -> [u64; 2] {
     figures
 }
 
+/// [`area_and_perimeter`] of each cloud of a projection by itself: covered cells that touch by their sides are one cloud, over
+/// the edges of a wrapped grid too.
+#[must_use]
+pub fn separate_clouds(projection: &Grid2<bool>, edges: Edges) -> Vec<[u64; 2]> {
+    let padded;
+    let projection = if edges == Edges::Open {
+        padded = with_bare_rim(projection);
+        &padded
+    } else {
+        projection
+    };
+    let (clouds, count) = numbered_clouds(projection, edges);
+    let [nx, ny] = projection.size();
+    let mut figures = vec![[0; 2]; count];
+    for place in (0..ny).flat_map(|y| (0..nx).map(move |x| [x, y])) {
+        if clouds[place] > 0 {
+            figures[clouds[place] - 1][0] += 1;
+            continue;
+        }
+        let mut beside = neighbours(place, [nx, ny], edges).map(|cell| cell.map_or(0, |cell| clouds[cell]));
+        beside.sort_unstable();
+        for (index, &cloud) in beside.iter().enumerate() {
+            // A bare cell counts once for each cloud beside it.
+            if cloud > 0 && (index == 0 || beside[index - 1] != cloud) {
+                figures[cloud - 1][1] += 1;
+            }
+        }
+    }
+    figures
+}
+
+/// A projection with a bare cell more on each side.
+fn with_bare_rim(projection: &Grid2<bool>) -> Grid2<bool> {
+    let [nx, ny] = projection.size();
+    let inside = |x: usize, y: usize| (1..=nx).contains(&x) && (1..=ny).contains(&y);
+    Grid2::from_fn([nx + 2, ny + 2], |x, y| inside(x, y) && projection[[x - 1, y - 1]])
+}
+
+/// The number of the cloud that covers each place, from 1, or 0; and how many there are.
+fn numbered_clouds(projection: &Grid2<bool>, edges: Edges) -> (Grid2<usize>, usize) {
+    let [nx, ny] = projection.size();
+    let mut clouds = Grid2::filled([nx, ny], 0);
+    let mut count = 0;
+    for first in (0..ny).flat_map(|y| (0..nx).map(move |x| [x, y])) {
+        if !projection[first] || clouds[first] > 0 {
+            continue;
+        }
+        count += 1;
+        clouds[first] = count;
+        let mut open = vec![first];
+        while let Some([x, y]) = open.pop() {
+            for next in neighbours([x, y], [nx, ny], edges).into_iter().flatten() {
+                if projection[next] && clouds[next] == 0 {
+                    clouds[next] = count;
+                    open.push(next);
+                }
+            }
+        }
+    }
+    (clouds, count)
+}
+
+/// The four cells beside a cell, as far as they exist.
+fn neighbours([x, y]: [usize; 2], [nx, ny]: [usize; 2], edges: Edges) -> [Option<[usize; 2]>; 4] {
+    let wraps = edges == Edges::Wrap;
+    let before = |place: usize, count: usize| place.checked_sub(1).or(wraps.then_some(count - 1));
+    let after = |place: usize, count: usize| if place + 1 < count { Some(place + 1) } else { wraps.then_some(0) };
+    [
+        before(x, nx).map(|x| [x, y]),
+        after(x, nx).map(|x| [x, y]),
+        before(y, ny).map(|y| [x, y]),
+        after(y, ny).map(|y| [x, y]),
+    ]
+}
+
 /// Dimension D of perimeter ~ area^(D/2), by least squares of the logarithms, and its standard error; none for fewer than
 /// three clouds or clouds of one size.
 #[must_use]
@@ -139,6 +215,22 @@ mod tests {
         let (dimension, error) = area_perimeter_dimension(&[square(2), square(5), square(11), square(30)]).unwrap();
         assert!((dimension - 1.0).abs() < 1e-12 && error < 1e-12, "{dimension} +- {error}");
         assert!(area_perimeter_dimension(&[[9, 12], [9, 12], [9, 12]]).is_none(), "one size only");
+    }
+
+    #[test]
+    fn clouds_are_told_apart_and_a_wrapped_one_is_whole() {
+        let bar = |x: usize, y: usize| y == 4 && !(3..8).contains(&x);
+        let square = |x: usize, y: usize| (4..6).contains(&x) && (6..8).contains(&y);
+        let sky = Grid2::from_fn([10, 10], |x, y| bar(x, y) || square(x, y));
+        let figures = |edges| {
+            let mut figures = separate_clouds(&sky, edges);
+            figures.sort_unstable();
+            figures
+        };
+        assert_eq!(figures(Edges::Open), [[2, 6], [3, 8], [4, 8]], "two ends of a bar and a square");
+        assert_eq!(figures(Edges::Wrap), [[4, 8], [5, 12]], "the ends are one bar");
+        let one = separate_clouds(&Grid2::from_fn([7, 7], |x, y| x < 3 && y < 3), Edges::Open);
+        assert_eq!(one, [[9, 12]], "as the whole projection's");
     }
 
     #[test]

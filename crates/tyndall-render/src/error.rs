@@ -1,5 +1,7 @@
 //! What can go wrong while a frame is drawn.
 
+use std::sync::Arc;
+
 use tyndall_clouds::CloudError;
 use tyndall_gpu::GpuError;
 use tyndall_scattering::ScatteringError;
@@ -20,6 +22,9 @@ pub enum RenderError {
     /// Of the clouds: a wind too fast for its grid.
     #[error("clouds: {0}")]
     Clouds(#[from] CloudError),
+    /// What an earlier frame was refused for, asked for again.
+    #[error(transparent)]
+    Refused(Arc<Self>),
     /// The target was made for another renderer configuration.
     #[error("the frame target has {target:?}, the renderer draws {renderer:?}")]
     Configuration {

@@ -10,7 +10,7 @@ use tyndall_scattering::orders::OrdersQuality;
 use tyndall_scene::{Orders, OrdersDetail, Scene};
 
 use crate::aerial::{AerialRequest, AerialVolume};
-use crate::clouds::{CloudDrawData, CloudRenderer, CloudSurroundings};
+use crate::clouds::{CloudDrawData, CloudProgress, CloudRenderer, CloudSurroundings};
 use crate::develop::DevelopRenderer;
 use crate::exposure::ev100_from_gain;
 use crate::frame::{frame_uniform, gpu_data};
@@ -235,9 +235,16 @@ impl Renderer {
         &self.landscape
     }
 
-    /// Chooses when the slow table of all orders is made; at first the frame waits for it.
+    /// Chooses when the slow table of all orders and the clouds are made; at first the frame waits for them.
     pub fn set_table_building(&mut self, building: TableBuilding) {
+        self.clouds.set_building(building.clone());
         self.tables.set_building(building);
+    }
+
+    /// How the clouds stand after the last frame.
+    #[must_use]
+    pub fn cloud_progress(&self) -> &CloudProgress {
+        self.clouds.progress()
     }
 
     /// How the table of all orders stands after the last frame.

@@ -7,20 +7,25 @@
 //!
 //! A wrapped grid repeats to the horizon. Clouds throw no shadow on the ground or into the air yet, and the moon lights none.
 
+mod building;
 pub mod gpu_data;
+mod report;
 mod skip;
 pub mod source;
 mod volume;
+
+pub use building::CloudProgress;
+pub use report::{CloudReport, CloudTimes};
 
 use tyndall_gpu::wgpu::{self, BufferUsages, TextureUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture, TextureDesc};
 use tyndall_scene::Scene;
 
-use crate::sky::SkyTables;
+use crate::sky::{SkyTables, TableBuilding};
 use crate::{FrameTarget, RenderError, RendererConfig};
 use gpu_data::{Clouds, transport};
-use source::{CloudSource, CloudSourceRequest};
-use volume::{CloudVolume, VolumeRequest};
+use source::CloudSourceRequest;
+use volume::{CloudVolume, LightRequest, VolumeRequest};
 
 /// The pipeline, the simulation and its textures.
 #[derive(Debug)]
@@ -28,7 +33,6 @@ pub struct CloudRenderer {
     pipeline: RenderPipeline,
     uniform: Buffer,
     sampler: wgpu::Sampler,
-    source: CloudSource,
     volume: CloudVolume,
     /// Copy of the frame without clouds: blending 32-bit floats is not everywhere possible.
     behind: Option<Texture>,
@@ -81,13 +85,23 @@ impl CloudRenderer {
             pipeline,
             uniform: gpu.buffer("clouds", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
             sampler,
-            source: CloudSource::default(),
             volume: CloudVolume::default(),
             behind: None,
         })
     }
 
-    /// Simulates and binds the clouds of a grounded scene; `None` without clouds.
+    /// Chooses whether frames wait for the simulation or show the clouds before meanwhile.
+    pub fn set_building(&mut self, building: TableBuilding) {
+        self.volume.set_building(building);
+    }
+
+    /// How the clouds stand after the last frame.
+    #[must_use]
+    pub fn progress(&self) -> &CloudProgress {
+        self.volume.progress()
+    }
+
+    /// Simulates and binds the clouds of a grounded scene; `None` without clouds, or before a thread has made the first.
     ///
     /// # Errors
     /// When the scene has no sun position, the clouds' values do not fit together or memory does not suffice.
@@ -98,16 +112,16 @@ impl CloudRenderer {
         surroundings: CloudSurroundings<'_>,
         target: &FrameTarget,
     ) -> Result<Option<CloudDrawData>, RenderError> {
-        let Some(source) = CloudSourceRequest::of(scene) else { return Ok(None) };
-        let matter = self.source.matter(&source)?;
-        let uniform = Clouds::new(&scene.clouds, &matter, scene.cloud_matter.extinction_per_m);
-        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        let request = VolumeRequest {
-            matter,
-            to_sun: scene.sun_direction()?.unit().to_array(),
-            transport: transport(&scene.clouds),
+        let Some(source) = CloudSourceRequest::of(scene) else {
+            self.volume.rest();
+            return Ok(None);
         };
-        let textures = self.volume.update(gpu, &request)?;
+        let light =
+            LightRequest { to_sun: scene.sun_direction()?.unit().to_array(), transport: transport(&scene.clouds) };
+        let Some(shown) = self.volume.update(gpu, &VolumeRequest { source, light })? else { return Ok(None) };
+        let textures = &shown.textures;
+        let uniform = Clouds::new(&scene.clouds, &shown.matter, scene.cloud_matter.extinction_per_m);
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let behind = copy_of_frame(gpu, &mut self.behind, target)?;
         let tables = surroundings.tables;
         let mut sky = tables.view_bindings().to_vec();

@@ -1,6 +1,7 @@
 //! Where the clouds of a scene come from, and what they consist of at a moment.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use tyndall_clouds::{CloudMatter, CloudParams, CloudSimulation, state_step};
 use tyndall_core::array::NamedArrays;
@@ -30,6 +31,7 @@ impl CloudSourceRequest {
 pub struct CloudSource {
     start: Option<NamedArrays>,
     simulation: Option<CloudSimulation>,
+    step_time: Option<Duration>,
     last: Option<(CloudSourceRequest, Arc<CloudMatter>)>,
 }
 
@@ -44,16 +46,49 @@ impl CloudSource {
     /// # Errors
     /// When the parameters of the clouds do not fit together.
     pub fn matter(&mut self, request: &CloudSourceRequest) -> Result<Arc<CloudMatter>, RenderError> {
-        if let Some((_, matter)) = self.last.as_ref().filter(|(last, _)| last == request) {
-            return Ok(Arc::clone(matter));
+        loop {
+            if let Some(matter) = self.matter_unless(request, &|| false)? {
+                return Ok(matter);
+            }
         }
-        let matter = Arc::new(self.simulate(request)?);
-        self.last = Some((request.clone(), Arc::clone(&matter)));
+    }
+
+    /// [`CloudSource::matter`], or `None` when `is_stale`, which is asked between steps, says that nobody waits for it any
+    /// longer; what has been simulated so far is kept.
+    ///
+    /// # Errors
+    /// As for [`CloudSource::matter`].
+    pub fn matter_unless(
+        &mut self,
+        request: &CloudSourceRequest,
+        is_stale: &dyn Fn() -> bool,
+    ) -> Result<Option<Arc<CloudMatter>>, RenderError> {
+        if let Some((_, matter)) = self.last.as_ref().filter(|(last, _)| last == request) {
+            return Ok(Some(Arc::clone(matter)));
+        }
+        let matter = self.simulate(request, is_stale)?.map(Arc::new);
+        self.last = matter.clone().map(|matter| (request.clone(), matter));
         Ok(matter)
     }
 
+    /// The simulation that the last matter comes from; `None` when it comes from something else.
+    #[must_use]
+    pub fn simulation(&self) -> Option<&CloudSimulation> {
+        self.simulation.as_ref()
+    }
+
+    /// How long a step took, on average over the last ones that were made.
+    #[must_use]
+    pub fn step_time(&self) -> Option<Duration> {
+        self.step_time
+    }
+
     /// The automaton's clouds; it goes on from where it stands when that is not too far.
-    fn simulate(&mut self, request: &CloudSourceRequest) -> Result<CloudMatter, RenderError> {
+    fn simulate(
+        &mut self,
+        request: &CloudSourceRequest,
+        is_stale: &dyn Fn() -> bool,
+    ) -> Result<Option<CloudMatter>, RenderError> {
         let CloudSourceRequest { params, time_s } = request;
         let earlier = self.simulation.take().filter(|known| known.params() == params);
         let (steps, fraction) = params.moment(*time_s);
@@ -62,12 +97,25 @@ impl CloudSource {
         let mut simulation = match (earlier.filter(|known| known.automaton().step_count() <= wanted), &self.start) {
             (Some(known), _) => known,
             (None, Some(state)) => CloudSimulation::from_state(params, state)?,
-            (None, None) => CloudSimulation::new(params)?,
+            (None, None) => CloudSimulation::cold(params)?,
         };
-        simulation.advance(wanted - simulation.automaton().step_count());
-        let matter = CloudMatter::of_simulation(&mut simulation, fraction)?;
+        let is_done = self.advance(&mut simulation, wanted, is_stale);
+        let matter = is_done.then(|| CloudMatter::of_simulation(&mut simulation, fraction)).transpose()?;
         self.simulation = Some(simulation);
         Ok(matter)
+    }
+
+    /// Makes steps up to a number of them; whether it came so far.
+    fn advance(&mut self, simulation: &mut CloudSimulation, wanted: u32, is_stale: &dyn Fn() -> bool) -> bool {
+        let (started, first) = (Instant::now(), simulation.automaton().step_count());
+        while simulation.automaton().step_count() < wanted && !is_stale() {
+            simulation.advance(1);
+        }
+        let last = simulation.automaton().step_count();
+        if last > first {
+            self.step_time = Some(started.elapsed() / (last - first));
+        }
+        last == wanted
     }
 }
 

@@ -1,38 +1,79 @@
 //! The clouds' matter and light as 3-D textures, made by the CPU and kept while what they follow from stays the same.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use tyndall_clouds::{CloudLight, CloudMatter, cloud_light};
 use tyndall_core::grid::Grid3;
 use tyndall_gpu::wgpu::{self, TextureFormat, TextureUsages};
 use tyndall_gpu::{Gpu, Texture, TextureDesc};
 
+use super::building::{CloudProgress, Making};
+use super::report::{CloudReport, CloudTimes};
 use super::skip::skip_cells;
+use super::source::{CloudSource, CloudSourceRequest};
 use crate::RenderError;
+use crate::sky::TableBuilding;
 
 /// Largest optical depth that is stored: a half float holds it, and no light is left beyond.
 const MOST_DEPTH: f32 = 6e4;
 
 /// What the textures follow from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct VolumeRequest {
     /// The clouds.
-    pub(super) matter: Arc<CloudMatter>,
+    pub(super) source: CloudSourceRequest,
+    /// Their light.
+    pub(super) light: LightRequest,
+}
+
+/// What the light in the clouds follows from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct LightRequest {
     /// Direction to the sun.
     pub(super) to_sun: [f64; 3],
     /// One less the mean cosine of scattering.
     pub(super) transport: f64,
 }
 
-impl VolumeRequest {
-    /// Whether the clouds are the same object as those of another request; their light may differ.
-    fn has_matter_of(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.matter, &other.matter)
+/// Matter and light at the cells' centres, ready to be uploaded.
+#[derive(Debug)]
+pub(super) struct Volume {
+    pub(super) matter: Arc<CloudMatter>,
+    texels: Vec<[u16; 4]>,
+    /// How far rays may jump.
+    skips: Arc<Grid3<u8>>,
+    report: Option<Arc<CloudReport>>,
+}
+
+/// Makes volumes, with as much as possible of what was made for the last one; uses no GPU.
+#[derive(Debug, Default)]
+pub(super) struct VolumeMaker {
+    source: CloudSource,
+    skips: Option<(Arc<CloudMatter>, Arc<Grid3<u8>>)>,
+}
+
+impl VolumeMaker {
+    /// The volume of a request; `None` when `is_stale`, which is asked now and then, says that nobody waits for it.
+    pub(super) fn make(
+        &mut self,
+        request: &VolumeRequest,
+        is_stale: &dyn Fn() -> bool,
+    ) -> Result<Option<Volume>, RenderError> {
+        let Some(matter) = self.source.matter_unless(&request.source, is_stale)? else { return Ok(None) };
+        let started = Instant::now();
+        let LightRequest { to_sun, transport } = request.light;
+        let light = cloud_light(&matter.extinction_per_m, matter.cell_m, to_sun, transport, matter.edges)?;
+        let texels = texels(&matter.extinction_per_m, &light);
+        let times = CloudTimes { step: self.source.step_time(), light: started.elapsed() };
+        let report = self.source.simulation().map(|simulation| Arc::new(CloudReport::new(simulation, times)));
+        Ok(Some(Volume { texels, skips: self.skips(&matter), report, matter }))
     }
 
-    fn is(&self, other: &Self) -> bool {
-        let light = |request: &Self| (request.to_sun, request.transport);
-        self.has_matter_of(other) && light(self) == light(other)
+    fn skips(&mut self, matter: &Arc<CloudMatter>) -> Arc<Grid3<u8>> {
+        let known = self.skips.take().filter(|(of, _)| Arc::ptr_eq(of, matter));
+        let make = || (Arc::clone(matter), Arc::new(skip_cells(&matter.extinction_per_m, matter.edges)));
+        Arc::clone(&self.skips.insert(known.unwrap_or_else(make)).1)
     }
 }
 
@@ -45,40 +86,74 @@ pub(super) struct CloudTextures {
     pub(super) skips: Texture,
 }
 
-/// The textures of the last request.
+/// The textures that are shown.
+#[derive(Debug)]
+pub(super) struct ShownClouds {
+    request: VolumeRequest,
+    /// The clouds in them.
+    pub(super) matter: Arc<CloudMatter>,
+    /// Matter and light.
+    pub(super) textures: CloudTextures,
+    report: Option<Arc<CloudReport>>,
+}
+
+/// The textures and who makes what is in them.
 #[derive(Debug, Default)]
 pub(super) struct CloudVolume {
-    textures: Option<(VolumeRequest, CloudTextures)>,
+    making: Making,
+    shown: Option<ShownClouds>,
+    /// What could not be made, and why.
+    refused: Option<(VolumeRequest, Arc<RenderError>)>,
+    progress: CloudProgress,
 }
 
 impl CloudVolume {
-    /// The textures for a request; nothing is computed that was computed for the last one.
-    pub(super) fn update(&mut self, gpu: &Gpu, request: &VolumeRequest) -> Result<&CloudTextures, RenderError> {
-        let held = self.textures.take();
-        let textures = match held {
-            Some((last, textures)) if last.is(request) => textures,
-            last => {
-                let skips = last.filter(|(last, _)| last.has_matter_of(request)).map(|(_, textures)| textures.skips);
-                upload(gpu, request, skips)?
-            }
-        };
-        Ok(&self.textures.insert((request.clone(), textures)).1)
+    /// Chooses who makes the volumes; what is shown stays.
+    pub(super) fn set_building(&mut self, building: TableBuilding) {
+        self.making = Making::new(building);
     }
-}
 
-fn upload(gpu: &Gpu, request: &VolumeRequest, skips: Option<Texture>) -> Result<CloudTextures, RenderError> {
-    let CloudMatter { extinction_per_m, cell_m, edges, .. } = &*request.matter;
-    let light = cloud_light(extinction_per_m, *cell_m, request.to_sun, request.transport, *edges)?;
-    let texels = texels(extinction_per_m, &light);
-    let bytes = bytemuck::cast_slice::<_, u8>(&texels);
-    let cells = filled(gpu, "clouds", (extinction_per_m.size(), TextureFormat::Rgba16Float, 8), bytes)?;
-    let skips = if let Some(skips) = skips {
-        skips
-    } else {
-        let blocks = skip_cells(extinction_per_m, *edges);
-        filled(gpu, "clouds' gaps", (blocks.size(), TextureFormat::R8Uint, 1), blocks.cells())?
-    };
-    Ok(CloudTextures { cells, skips })
+    /// How it stands since the last update.
+    pub(super) fn progress(&self) -> &CloudProgress {
+        &self.progress
+    }
+
+    /// A frame without clouds: nothing is made any longer.
+    pub(super) fn rest(&mut self) {
+        self.making.cancel();
+        self.progress = CloudProgress::default();
+    }
+
+    /// The clouds to show for a request: those before, where a thread is still at these; `None` where there are none yet.
+    pub(super) fn update(&mut self, gpu: &Gpu, request: &VolumeRequest) -> Result<Option<&ShownClouds>, RenderError> {
+        let is_shown = self.shown.as_ref().is_some_and(|shown| shown.request == *request);
+        let is_refused = self.refused.as_ref().is_some_and(|(refused, _)| refused == request);
+        if let Some((request, made)) = self.making.next((!is_shown && !is_refused).then_some(request)) {
+            match made {
+                Ok(volume) => self.show(gpu, request, volume)?,
+                Err(error) => self.refused = Some((request, Arc::new(error))),
+            }
+        }
+        let shown = self.shown.as_ref();
+        self.progress.building = shown.is_none_or(|shown| shown.request != *request);
+        self.progress.report = shown.and_then(|shown| shown.report.clone());
+        if let Some((_, error)) = self.refused.as_ref().filter(|(refused, _)| refused == request) {
+            self.progress.building = false;
+            return Err(RenderError::Refused(Arc::clone(error)));
+        }
+        Ok(shown)
+    }
+
+    fn show(&mut self, gpu: &Gpu, request: VolumeRequest, volume: Volume) -> Result<(), RenderError> {
+        // The old ones give their memory back first.
+        self.shown = None;
+        let Volume { matter, texels, skips, report } = volume;
+        let bytes = bytemuck::cast_slice::<_, u8>(&texels);
+        let cells = filled(gpu, "clouds", (matter.extinction_per_m.size(), TextureFormat::Rgba16Float, 8), bytes)?;
+        let skips = filled(gpu, "clouds' gaps", (skips.size(), TextureFormat::R8Uint, 1), skips.cells())?;
+        self.shown = Some(ShownClouds { request, matter, textures: CloudTextures { cells, skips }, report });
+        Ok(())
+    }
 }
 
 /// Matter and light of the cells as the bits of half floats.

@@ -25,7 +25,7 @@ impl fmt::Debug for Wake {
     }
 }
 
-/// When the table of all orders of scattering is made.
+/// When the table of all orders of scattering is made, and the clouds.
 #[derive(Clone, Debug, Default)]
 pub enum TableBuilding {
     /// The frame waits for it: a picture follows from its scene alone.
@@ -33,7 +33,7 @@ pub enum TableBuilding {
     Blocking,
     /// Frames show the table before, with the new medium's coefficients, until the new one is there; only the very first
     /// one is waited for. A software adapter's table is made by a thread, which calls [`Wake`] at the end; a GPU's is
-    /// spread over the frames that follow.
+    /// spread over the frames that follow. Clouds are simulated by a thread, the first ones too.
     Background(Wake),
 }
 
