@@ -14,6 +14,7 @@ use tyndall_gpu::{Gpu, GpuError, PassTiming};
 use tyndall_io::TableFolder;
 use tyndall_render::{
     FrameTarget, RenderError, Renderer, RendererConfig,
+    clouds::CloudProgress,
     sky::{TableBuilding, TableProgress, Wake},
 };
 use tyndall_scene::Scene;
@@ -73,7 +74,7 @@ pub(crate) struct Engine {
     /// The device with its budget and its state.
     pub(crate) gpu: Arc<Gpu>,
     renderer: Renderer,
-    /// Whether a table has come that no frame has shown yet.
+    /// Whether a table or clouds have come that no frame has shown yet.
     news: Arc<AtomicBool>,
     /// Timings of the last frames, the oldest first.
     pub(crate) timings: VecDeque<FrameTimings>,
@@ -84,7 +85,7 @@ pub(crate) struct Engine {
 }
 
 impl Engine {
-    /// Makes a renderer that wakes the window when a table has come.
+    /// Makes a renderer that wakes the window when a table or clouds have come.
     pub(crate) fn new(state: &RenderState, ctx: &egui::Context) -> Result<Self, Problem> {
         let started = Instant::now();
         let gpu = Gpu::from_parts(&state.adapter, state.device.clone(), state.queue.clone(), None);
@@ -106,10 +107,21 @@ impl Engine {
         self.renderer.table_progress()
     }
 
+    /// How the clouds stand.
+    pub(crate) fn clouds(&self) -> &CloudProgress {
+        self.renderer.cloud_progress()
+    }
+
+    /// Whether something is being made that a later frame will show.
+    pub(crate) fn is_building(&self) -> bool {
+        self.tables().building || self.clouds().building
+    }
+
     /// Whether drawing the same scene again would show more.
     pub(crate) fn has_news(&self) -> bool {
         let tables = self.tables();
-        tables.building && (tables.needs_frame || self.news.load(Ordering::Acquire))
+        let has_come = self.news.load(Ordering::Acquire) && self.is_building();
+        has_come || (tables.building && tables.needs_frame)
     }
 
     /// A target for pictures of a size.

@@ -21,6 +21,9 @@ const REST_S: f64 = 0.15;
 const TIMINGS_EVERY: Duration = Duration::from_millis(40);
 const TIMINGS_TRIES: u32 = 50;
 
+/// Time of a simulation after which a sign tells of it; shorter ones would make it flicker.
+const SIGN_AFTER_S: f64 = 0.25;
+
 /// What the picture depends on.
 #[derive(Clone, Debug, PartialEq)]
 struct Wanted {
@@ -51,6 +54,8 @@ pub(crate) struct Stage {
     timings_tries: u32,
     ev100: Option<f64>,
     frames: u64,
+    /// Since when clouds have been simulated without a pause.
+    simulating_since_s: Option<f64>,
 }
 
 impl Stage {
@@ -74,6 +79,7 @@ impl Stage {
             timings_tries: 0,
             ev100: None,
             frames: 0,
+            simulating_since_s: None,
         }
     }
 
@@ -113,9 +119,30 @@ impl Stage {
         self.shown.is_some() && self.refine_at_s.is_none() && !self.awaits_timings() && !self.is_building()
     }
 
-    /// Whether a table of the sky is being made that the picture will show by and by.
+    /// Whether a table of the sky or clouds are being made that the picture will show by and by.
     pub(crate) fn is_building(&self) -> bool {
-        self.problem.is_none() && self.engine().is_some_and(|engine| engine.tables().building)
+        self.problem.is_none() && self.engine().is_some_and(Engine::is_building)
+    }
+
+    /// Whether clouds are being simulated that the picture does not show yet.
+    pub(crate) fn is_simulating(&self) -> bool {
+        self.problem.is_none() && self.engine().is_some_and(|engine| engine.clouds().building)
+    }
+
+    /// Whether clouds have been simulated for so long that the user should know; asks to be asked again where that is near.
+    pub(crate) fn is_simulating_long(&mut self, ctx: &egui::Context) -> bool {
+        let now_s = ctx.input(|input| input.time);
+        let is_simulating = self.is_simulating();
+        let since_s = *self.simulating_since_s.get_or_insert(now_s);
+        if !is_simulating {
+            self.simulating_since_s = None;
+            return false;
+        }
+        let left_s = since_s + SIGN_AFTER_S - now_s;
+        if left_s > 0.0 {
+            ctx.request_repaint_after(Duration::from_secs_f64(left_s));
+        }
+        left_s <= 0.0
     }
 
     /// Whether the window will wake up for the timings of the picture.

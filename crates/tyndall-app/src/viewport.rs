@@ -72,6 +72,9 @@ pub(crate) fn show(
         None => drop(ui.painter().rect_filled(rect, CornerRadius::ZERO, ui.visuals().extreme_bg_color)),
     }
     overlay(ui, rect, stage, scene, options);
+    if stage.is_simulating_long(ui.ctx()) && !is_playing {
+        label(ui, rect.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP, "Simulating clouds...");
+    }
     if response.has_focus() {
         ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, ui.visuals().selection.bg_fill), egui::StrokeKind::Inside);
     }
