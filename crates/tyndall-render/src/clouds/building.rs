@@ -61,10 +61,12 @@ impl Making {
                 maker.make(request, &|| false).transpose().map(|made| (request.clone(), made))
             }
             Self::Background(worker) => {
+                // Taken first, so that no frame shows what it has asked for itself: what it shows hangs on no race.
+                let made = worker.made.try_iter().last();
                 if let Some(request) = wanted {
                     worker.request(request);
                 }
-                worker.made.try_iter().last()
+                made
             }
         }
     }
