@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
 use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, PassTiming};
@@ -221,6 +222,11 @@ impl Renderer {
     /// scattering is such a table; GPUs make theirs faster than a file is read. A kept table has the bits of a new one.
     pub fn set_table_store(&mut self, store: Option<Arc<dyn TableStore>>) {
         self.tables.set_store(store);
+    }
+
+    /// Chooses a state from which the clouds' simulation starts, in place of its beginning and its warm-up.
+    pub fn start_clouds_from(&mut self, state: Option<NamedArrays>) {
+        self.clouds.start_from(state);
     }
 
     /// The volume of air in front of the camera, for tests and compositors.

@@ -9,6 +9,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use tyndall_core::array::NamedArrays;
+
 use super::report::CloudReport;
 use super::volume::{Volume, VolumeMaker, VolumeRequest};
 use crate::RenderError;
@@ -71,6 +73,18 @@ impl Making {
         }
     }
 
+    /// Chooses the state from which simulations start.
+    pub(super) fn start_from(&mut self, state: Option<NamedArrays>) {
+        match self {
+            Self::Blocking(maker) => maker.start_from(state),
+            Self::Background(worker) => {
+                worker.cancel();
+                // Without a thread there are no clouds anyway.
+                drop(worker.orders.send(Order::Start(state)));
+            }
+        }
+    }
+
     /// Gives up what is being made.
     pub(super) fn cancel(&mut self) {
         if let Self::Background(worker) = self {
@@ -79,10 +93,19 @@ impl Making {
     }
 }
 
+/// What a thread is told.
+#[derive(Debug)]
+enum Order {
+    /// To start simulations from a state.
+    Start(Option<NamedArrays>),
+    /// To make a volume; the number of the request is its place among all.
+    Make(u64, VolumeRequest),
+}
+
 /// A thread that makes volumes.
 #[derive(Debug)]
 pub(super) struct Worker {
-    orders: Sender<(u64, VolumeRequest)>,
+    orders: Sender<Order>,
     made: Receiver<Made>,
     asked: Option<VolumeRequest>,
     /// Number of the newest request.
@@ -92,14 +115,14 @@ pub(super) struct Worker {
 impl Worker {
     /// Starts the thread; it ends with this value.
     fn start(wake: Wake) -> Self {
-        let (orders, received) = channel::<(u64, VolumeRequest)>();
+        let (orders, received) = channel();
         let (sender, made) = channel();
         let newest = Arc::new(AtomicU64::new(0));
         let current = Arc::clone(&newest);
-        let mut maker = VolumeMaker::default();
-        let mut work = move || {
+        let work = move || {
+            let mut maker = VolumeMaker::default();
             while let Ok(first) = received.recv() {
-                let (number, request) = received.try_iter().last().unwrap_or(first);
+                let Some((number, request)) = newest_of(&mut maker, first, &received) else { continue };
                 let started = Instant::now();
                 let is_stale = || current.load(Ordering::Acquire) != number && started.elapsed() > PATIENCE;
                 let Some(volume) = maker.make(&request, &is_stale).transpose() else { continue };
@@ -127,7 +150,7 @@ impl Worker {
             return;
         }
         let number = self.newest.fetch_add(1, Ordering::AcqRel) + 1;
-        if self.orders.send((number, request.clone())).is_ok() {
+        if self.orders.send(Order::Make(number, request.clone())).is_ok() {
             self.asked = Some(request.clone());
         }
     }
@@ -136,6 +159,18 @@ impl Worker {
         self.asked = None;
         self.newest.fetch_add(1, Ordering::AcqRel);
     }
+}
+
+/// The newest of the volumes asked for so far; states to start from are passed on.
+fn newest_of(maker: &mut VolumeMaker, first: Order, received: &Receiver<Order>) -> Option<(u64, VolumeRequest)> {
+    let mut newest = None;
+    for order in std::iter::once(first).chain(received.try_iter()) {
+        match order {
+            Order::Start(state) => maker.start_from(state),
+            Order::Make(number, request) => newest = Some((number, request)),
+        }
+    }
+    newest
 }
 
 impl Drop for Worker {

@@ -17,6 +17,7 @@ mod volume;
 pub use building::CloudProgress;
 pub use report::{CloudReport, CloudTimes};
 
+use tyndall_core::array::NamedArrays;
 use tyndall_gpu::wgpu::{self, BufferUsages, TextureUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture, TextureDesc};
 use tyndall_scene::Scene;
@@ -93,6 +94,11 @@ impl CloudRenderer {
     /// Chooses whether frames wait for the simulation or show the clouds before meanwhile.
     pub fn set_building(&mut self, building: TableBuilding) {
         self.volume.set_building(building);
+    }
+
+    /// Chooses a state from which the simulation starts; see [`source::CloudSource::start_from`].
+    pub fn start_from(&mut self, state: Option<NamedArrays>) {
+        self.volume.start_from(state);
     }
 
     /// How the clouds stand after the last frame.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use tyndall_clouds::{CloudLight, CloudMatter, cloud_light};
+use tyndall_core::array::NamedArrays;
 use tyndall_core::grid::Grid3;
 use tyndall_gpu::wgpu::{self, TextureFormat, TextureUsages};
 use tyndall_gpu::{Gpu, Texture, TextureDesc};
@@ -54,6 +55,11 @@ pub(super) struct VolumeMaker {
 }
 
 impl VolumeMaker {
+    /// Chooses the state from which simulations start.
+    pub(super) fn start_from(&mut self, state: Option<NamedArrays>) {
+        self.source.start_from(state);
+    }
+
     /// The volume of a request; `None` when `is_stale`, which is asked now and then, says that nobody waits for it.
     pub(super) fn make(
         &mut self,
@@ -111,6 +117,12 @@ impl CloudVolume {
     /// Chooses who makes the volumes; what is shown stays.
     pub(super) fn set_building(&mut self, building: TableBuilding) {
         self.making = Making::new(building);
+    }
+
+    /// Chooses the state from which simulations start; what was made from another is forgotten.
+    pub(super) fn start_from(&mut self, state: Option<NamedArrays>) {
+        self.making.start_from(state);
+        (self.shown, self.refused) = (None, None);
     }
 
     /// How it stands since the last update.
