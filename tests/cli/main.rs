@@ -1,6 +1,7 @@
 //! The program `tyndall` as its users meet it: files, sentences and exit codes.
 
 mod blender;
+mod frames;
 mod light;
 mod outside;
 mod pictures;
@@ -10,3 +11,4 @@ mod progress;
 mod refusals;
 mod simulate;
 mod tables;
+mod volume;

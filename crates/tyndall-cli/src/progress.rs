@@ -22,7 +22,7 @@ pub enum ProgressFormat {
     /// A bar on stderr when it is a terminal and the work is long; one line at the end
     #[default]
     Human,
-    /// One JSON object a line on stdout, with the events progress, finished and error
+    /// One JSON object a line on stdout, with the events progress, frame, finished and error
     Json,
 }
 
@@ -110,6 +110,16 @@ impl Progress {
             bar.show_share(text, done);
         }
         self.event(&json!({ "event": "progress", "done": done, "stage": text }))
+    }
+
+    /// A part of the result is there: `facts` (an object) for programs.
+    ///
+    /// # Errors
+    /// When standard output refuses.
+    pub fn item(&self, event: &str, facts: Value) -> Result<(), Failure> {
+        let mut object = facts;
+        object["event"] = json!(event);
+        self.event(&object)
     }
 
     /// Something that the user should know, but that stops nothing.

@@ -6,9 +6,12 @@
 
 pub(crate) mod format;
 pub(crate) mod frame;
+mod frames;
 pub(crate) mod header;
 pub(crate) mod memory;
 mod reference;
+mod sequence;
+mod session;
 pub(crate) mod source;
 pub(crate) mod write;
 
@@ -22,11 +25,13 @@ use tyndall_scene::Scene;
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, ProgressFormat, Stage};
 use crate::scene_arguments::{DeviceArguments, SceneArguments};
+use crate::simulate::StartArguments;
 use crate::values::parse_size_px;
 use crate::{Exit, Failure};
 
 pub use format::{Bits, CompressionName, FormatArguments, OutputFormat};
 use frame::Job;
+pub use frames::{FrameRange, frame_path, parse_frames, parse_rate, scene_of_frame};
 use write::Written;
 
 const EXAMPLES: &str = "\
@@ -36,6 +41,7 @@ Examples:
   tyndall render dusk.toml -o d.png --set sun.elevation_deg=2 --set film.tone_map=aces
   tyndall render dusk.toml -o d.exr --adapter software --max-memory 4G
   tyndall render dusk.toml -o truth.png --reference --paths 256 --size 320x180
+  tyndall render preset:cumulus -o 'sky-####.png' --frames 0-239 --fps 24 --speed 60
 
 Units are in the names of the parameters (altitude_m, elevation_deg);
 `tyndall params` lists them all. EXR holds the light of the scene, linear
@@ -65,6 +71,21 @@ pub struct RenderArguments {
     /// Seed of the walks; the same seed gives the same bits
     #[arg(long, value_name = "SEED", default_value_t = 1, requires = "reference")]
     pub seed: u64,
+    /// Draw an animation: frames by number, as 1-48 or 0-240x10; `#` in the file's name is where the number goes
+    #[arg(long, value_name = "RANGE", value_parser = parse_frames, conflicts_with = "reference")]
+    pub frames: Option<FrameRange>,
+    /// Frames in a second of the animation
+    #[arg(long, value_name = "N", default_value_t = 24.0, value_parser = parse_rate, requires = "frames")]
+    pub fps: f64,
+    /// Seconds that pass for the scene's clouds in a second of the animation
+    #[arg(long, value_name = "N", default_value_t = 60.0, value_parser = parse_rate, requires = "frames")]
+    pub speed: f64,
+    /// Leave frames alone that are there already, whole and of the same scene
+    #[arg(long, requires = "frames")]
+    pub resume: bool,
+    /// Where the simulation begins.
+    #[command(flatten)]
+    pub start: StartArguments,
     /// What draws it.
     #[command(flatten)]
     pub device: DeviceArguments,
@@ -92,19 +113,25 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
 fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Failure> {
     let format = arguments.format.for_file(&arguments.output)?;
     let scene = scene_of(arguments)?;
+    if let Some(range) = arguments.frames {
+        return sequence::run(arguments, (range, &scene), format, progress);
+    }
     check_writable(&arguments.output)?;
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
+    let state = arguments.start.load(&scene, progress)?;
+    let state = state.as_ref();
     let frame = if arguments.reference {
         reference::frame(&scene, format, (arguments.paths, arguments.seed), &interrupt, progress)?
     } else {
         let options = arguments.device.options();
         let cache = arguments.device.cache;
-        Job { scene: &scene, format, options: &options, cache, interrupt: &interrupt, progress }.run()?
+        let job = Job { scene: &scene, format, options: &options, cache, state, interrupt: &interrupt, progress };
+        job.run().map_err(|failure| arguments.start.blame(failure))?
     };
 
     progress.stage(Stage::File)?;
     interrupt.check()?;
-    let metadata = header::metadata(&scene, &frame);
+    let metadata = header::metadata(&scene, state, &frame);
     let written = write::write(&arguments.output, &frame, format, &metadata, &interrupt)?;
     report(arguments, &scene, &frame, written, progress)
 }

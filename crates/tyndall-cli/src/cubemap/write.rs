@@ -66,7 +66,7 @@ fn metadata(arguments: &CubemapArguments, scene: &Scene, frame: &Frame) -> Pictu
     let unit = arguments.units.unwrap_or(UnitName::CandelaPerSquareMetre).at(frame.ev100);
     #[expect(clippy::cast_possible_truncation, reason = "EXR stores it as f32")]
     let white_luminance_cd_m2 = unit.white_luminance_cd_m2() as f32;
-    PictureMetadata { white_luminance_cd_m2, ..header::metadata(scene, frame) }
+    PictureMetadata { white_luminance_cd_m2, ..header::metadata(scene, None, frame) }
 }
 
 fn face_metadata(arguments: &CubemapArguments, scene: &Scene, frame: &Frame, face: CubeFace) -> PictureMetadata {

@@ -2,18 +2,19 @@
 
 use std::time::Duration;
 
+use tyndall_core::array::NamedArrays;
 use tyndall_gpu::wgpu::{PollError, PollType, SubmissionIndex};
 use tyndall_gpu::{Gpu, GpuOptions, PassTiming};
 use tyndall_io::Picture;
-use tyndall_render::{FrameFormat, FrameTarget, PictureFormat, Renderer, RendererConfig};
+use tyndall_render::{FrameFormat, FrameTarget, PictureFormat, RendererConfig};
 use tyndall_scene::Scene;
 
 use super::format::{Bits, OutputFormat};
-use super::memory::check_budget;
+use super::session::Studio;
 use crate::Failure;
 use crate::cache::CacheArguments;
 use crate::interrupt::Interrupt;
-use crate::progress::{Progress, Stage};
+use crate::progress::Progress;
 
 /// How soon a signal is noticed while the GPU works.
 const WAIT_SLICE: Duration = Duration::from_millis(100);
@@ -25,6 +26,7 @@ pub(super) struct Job<'a> {
     pub(super) format: OutputFormat,
     pub(super) options: &'a GpuOptions,
     pub(super) cache: CacheArguments,
+    pub(super) state: Option<&'a NamedArrays>,
     pub(super) interrupt: &'a Interrupt,
     pub(super) progress: &'a Progress,
 }
@@ -57,31 +59,16 @@ impl Job<'_> {
     }
 
     fn attempt(&self) -> Result<Frame, Failure> {
-        self.stage(Stage::Device)?;
-        let gpu = Gpu::open(self.options)?;
-        let (config, size_px) = (config(self.format), [self.scene.image.width_px, self.scene.image.height_px]);
-        check_budget(&gpu, size_px, self.format, config)?;
-
-        self.stage(Stage::Pipelines)?;
-        let mut renderer = Renderer::new(&gpu, config)?;
-        renderer.set_table_store(self.cache.store());
-        let mut target = FrameTarget::new(&gpu, size_px, config)?;
-
-        self.stage(Stage::Frame)?;
-        let submission = renderer.render(&gpu, self.scene, &mut target)?;
-        wait(&gpu, &submission, self.interrupt)?;
-
-        self.stage(Stage::ReadBack)?;
-        let pixels = read(&gpu, &target, self.format)?;
-        let ev100 = renderer.read_ev100(&gpu)?;
-        let passes = renderer.timings(&gpu)?;
-        gpu.check()?;
-        Ok(Frame { size_px, pixels, adapter: gpu.adapter().name.clone(), ev100, passes })
-    }
-
-    fn stage(&self, stage: Stage) -> Result<(), Failure> {
-        self.interrupt.check()?;
-        self.progress.stage(stage)
+        let studio = Studio {
+            size_px: [self.scene.image.width_px, self.scene.image.height_px],
+            format: self.format,
+            options: self.options,
+            cache: self.cache,
+            state: self.state,
+            interrupt: self.interrupt,
+            stages: Some(self.progress),
+        };
+        studio.open()?.draw(self.scene)
     }
 }
 

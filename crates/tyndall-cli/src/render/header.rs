@@ -1,5 +1,6 @@
 //! What the file says about the picture.
 
+use tyndall_core::array::{ArrayData, NamedArrays};
 use tyndall_io::PictureMetadata;
 use tyndall_scene::camera::{CameraFrame, NEAR_M};
 use tyndall_scene::{Scene, SunPosition};
@@ -9,12 +10,27 @@ use super::frame::Frame;
 /// Header entry with the adapter's name: the same scene gives the same bytes on the same adapter only.
 pub(crate) const ADAPTER: &str = "tyndall/adapter";
 
-/// Metadata of a frame of the scene.
-pub(crate) fn metadata(scene: &Scene, frame: &Frame) -> PictureMetadata {
+/// What tells the picture of a scene from any other: by it a finished file is known again.
+pub(crate) fn identity(scene: &Scene, state: Option<&NamedArrays>) -> PictureMetadata {
+    let number = |name: &str| {
+        let array = state?.iter().find(|(found, _)| found == name);
+        array.and_then(|(_, array)| match array.data() {
+            ArrayData::U64(numbers) => numbers.first().copied(),
+            _ => None,
+        })
+    };
+    let mut scene_hash = scene.hash().to_string();
+    if let (Some(step), Some(hash)) = (number("step"), number("hash")) {
+        scene_hash = format!("{scene_hash}+{step}-{hash:016x}");
+    }
+    PictureMetadata { scene_hash, ..PictureMetadata::default() }
+}
+
+/// Metadata of a frame of the scene, of which the simulation began with the state.
+pub(crate) fn metadata(scene: &Scene, state: Option<&NamedArrays>, frame: &Frame) -> PictureMetadata {
     let place = (scene.sun.position == SunPosition::Date).then_some(&scene.sun);
     #[expect(clippy::cast_possible_truncation, reason = "EXR stores these as f32")]
     PictureMetadata {
-        scene_hash: scene.hash().to_string(),
         title: scene.title.clone(),
         comments: scene.description.clone(),
         world_to_camera: world_to_camera(&CameraFrame::new(&scene.grounded().camera)),
@@ -24,7 +40,7 @@ pub(crate) fn metadata(scene: &Scene, frame: &Frame) -> PictureMetadata {
         longitude_deg: place.map(|sun| sun.longitude_deg),
         exposure_ev100: frame.ev100,
         extra: vec![(ADAPTER.to_owned(), frame.adapter.clone())],
-        ..PictureMetadata::default()
+        ..identity(scene, state)
     }
 }
 
@@ -38,6 +54,7 @@ pub(crate) fn world_to_camera(camera: &CameraFrame) -> [f32; 16] {
 
 #[cfg(test)]
 mod tests {
+    use tyndall_core::array::Array;
     use tyndall_scene::CameraParams;
 
     use super::*;
@@ -68,17 +85,26 @@ mod tests {
     #[test]
     fn the_place_is_written_only_when_the_sun_stands_by_the_date() {
         let mut scene = Scene::default();
-        assert_eq!(metadata(&scene, &frame()).latitude_deg, None, "the angles are of no place");
+        assert_eq!(metadata(&scene, None, &frame()).latitude_deg, None, "the angles are of no place");
         scene.sun.position = SunPosition::Date;
-        let metadata = metadata(&scene, &frame());
+        let metadata = metadata(&scene, None, &frame());
         assert_eq!(metadata.latitude_deg, Some(scene.sun.latitude_deg), "the place of the date");
         assert_eq!(metadata.longitude_deg, Some(scene.sun.longitude_deg), "the place of the date");
     }
 
     #[test]
+    fn pictures_that_began_with_another_state_are_other_pictures() {
+        let number = |value| Array::new(vec![], ArrayData::U64(vec![value])).unwrap();
+        let state = |hash| vec![("step".to_owned(), number(7)), ("hash".to_owned(), number(hash))];
+        let hash = |state: Option<&NamedArrays>| identity(&Scene::default(), state).scene_hash;
+        assert_eq!(hash(None), Scene::default().hash().to_string(), "the scene alone");
+        assert_eq!(hash(Some(&state(5))), format!("{}+7-0000000000000005", hash(None)), "step and hash of the state");
+    }
+
+    #[test]
     fn hash_exposure_and_adapter_are_in_the_header() {
         let scene = Scene::default();
-        let metadata = metadata(&scene, &frame());
+        let metadata = metadata(&scene, None, &frame());
         assert_eq!(metadata.scene_hash, scene.hash().to_string(), "the whole hash");
         assert!((metadata.exposure_ev100 - 14.5).abs() < 1e-12, "{}", metadata.exposure_ev100);
         assert_eq!(metadata.extra, [("tyndall/adapter".to_owned(), "llvmpipe".to_owned())], "the adapter");
