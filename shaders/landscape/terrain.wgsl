@@ -1,5 +1,6 @@
 // Draws the terrain: a mesh of rings with the exact slope at each pixel, lit by the sun and by the sky, seen through air.
 // @import aerial/lookup.wgsl
+// @import clouds/shadow.wgsl
 // @import landscape/place.wgsl
 // @import landscape/shadow_lookup.wgsl
 // @import landscape/surface.wgsl
@@ -32,9 +33,14 @@ fn terrain_fragment(vertex: TerrainVertex) -> @location(0) vec4<f32> {
     let nu = dot(normal, sun);
     let sines = sqrt(max((1.0 - normal.z * normal.z) * (1.0 - sun.z * sun.z), 1e-12));
     let cos_phi = clamp((nu - normal.z * sun.z) / sines, -1.0, 1.0);
-    let lit = sky_light_sun(altitude, sun.z) * max(nu, 0.0) * shadow_of_terrain(place, ground.x);
-    let light = lit + sky_light_irradiance(altitude, sun.z, normal.z, cos_phi, nu);
-    let radiance = surface_albedo(place, ground, footprint_m) * light / SKY_PI;
+    let shade = cloud_shade_at(place, altitude);
+    let sunlight = sky_light_sun(altitude, sun.z);
+    // What clouds scatter down comes from all of the sky.
+    let scattered = sunlight * max(sun.z, 0.0) * (0.5 + 0.5 * normal.z) * shade.diffuse;
+    let lit = sunlight * max(nu, 0.0) * shadow_of_terrain(place, ground.x) * shade.direct + scattered;
+    let light = lit + sky_light_irradiance(altitude, sun.z, normal.z, cos_phi, nu) * shade.sky;
+    let albedo = surface_albedo(place, ground, footprint_m);
+    let radiance = albedo * light * cloud_shade_between(shade, vec4<f32>(albedo, 0.0)).xyz / SKY_PI;
     let air = aerial_seen(frame_plane(vertex.clip), distance, sky_sun_cosine(vertex.position / distance));
     return vec4<f32>((radiance * air.transmittance + air.light) * frame.pre_exposure, 1.0);
 }

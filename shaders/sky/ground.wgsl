@@ -1,4 +1,5 @@
 // The ground: a Lambertian sphere lit by the sun and the sky, seen through the air in front of it. Writes depth.
+// @import clouds/shadow.wgsl
 // @import frame/frame.wgsl
 // @import sky/ground_light.wgsl
 // @import sky/ground_night.wgsl
@@ -42,6 +43,20 @@ fn ground_coverage(plane: vec2<f32>, elevation: f32) -> f32 {
     return clamp((sky_view.horizon_elevation - elevation) / max(pixel.x, pixel.y), 0.0, 1.0);
 }
 
+/// Light of a sun and its sky (W/m^2/nm) on ground below clouds.
+fn ground_shaded(sun: Spectrum, sky: Spectrum, shade: CloudShade) -> Spectrum {
+    let light = spectrum_add(spectrum_scale(sun, shade.direct + shade.diffuse), spectrum_scale(sky, shade.sky));
+    return Spectrum(light.lo * cloud_shade_between(shade, atmosphere.ground_albedo.lo), light.hi * cloud_shade_between(shade, atmosphere.ground_albedo.hi));
+}
+
+/// Share of its light that the air in front of the ground has: what lies below clouds has their mean shade.
+fn ground_air_share() -> f32 {
+    let scale = atmosphere.air_scale_height_m;
+    let whole = 1.0 - exp(-max(sky_view.observer_altitude_m, 1.0) / scale);
+    let below = 1.0 - exp(-clamp(sky_view.observer_altitude_m, 1.0, max(cloud_shade.floor_m, 1.0)) / scale);
+    return 1.0 + below / whole * (cloud_shade_mean(0.0) - 1.0);
+}
+
 @vertex
 fn ground_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
     return frame_triangle(index);
@@ -60,23 +75,25 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     let nu = sky_sun_cosine(direction);
     let mu_sun = mu_along(radius, h, sky_view.sun_direction.z, nu, t, 0.0);
     let footprint_m = frame_pixel_angle(plane) * t / max(-direction.z, 1e-4);
-    var light = spectrum_add(ground_sun_irradiance(mu_sun), ground_sky_irradiance(mu_sun));
+    let place = frame.position_m.xy + t * direction.xy;
+    let shade = cloud_shade_at(place, 0.0);
+    var light = ground_shaded(ground_sun_irradiance(mu_sun), ground_sky_irradiance(mu_sun), shade);
     if (moon.skylight == 1u) {
         let mu_moon = mu_along(radius, h, moon.direction.z, dot(direction, moon.direction), t, 0.0);
-        light = spectrum_add(light, spectrum_mul(moon.light, spectrum_add(ground_sun_irradiance(mu_moon), ground_sky_irradiance(mu_moon))));
+        light = spectrum_add(light, spectrum_mul(moon.light, ground_shaded(ground_sun_irradiance(mu_moon), ground_sky_irradiance(mu_moon), shade)));
     }
-    light = spectrum_add(light, ground_airglow_irradiance());
-    let reflected = spectrum_scale(spectrum_mul(atmosphere.ground_albedo, light), ground_pattern(frame.position_m.xy + t * direction.xy, footprint_m) / SKY_PI);
+    light = spectrum_add(light, spectrum_scale(ground_airglow_irradiance(), shade.sky));
+    let reflected = spectrum_scale(spectrum_mul(atmosphere.ground_albedo, light), ground_pattern(place, footprint_m) / SKY_PI);
     let transmittance = atmosphere_transmittance(ground_view_columns(direction.z, t));
     let angles = sky_view_angles(direction);
-    let veil = sky_view_radiance(angles, nu) + ground_night_veil(direction, transmittance);
+    let veil = ground_air_share() * (sky_view_radiance(angles, nu) + ground_night_veil(direction, transmittance));
     var radiance = atmosphere_rec709(spectrum_mul(reflected, transmittance)) + veil;
     let coverage = ground_coverage(plane, angles.x);
     if (coverage < 1.0) {
         // A hair above the horizon, so that rounding does not take the rows below it.
         let edge = sky_view.horizon_elevation + 1e-5;
         let raised = vec3<f32>(direction.xy * (cos(edge) / max(length(direction.xy), 1e-6)), sin(edge));
-        let above = sky_view_radiance(vec2<f32>(edge, angles.y), nu) + ground_night_veil(raised, transmittance);
+        let above = ground_air_share() * (sky_view_radiance(vec2<f32>(edge, angles.y), nu) + ground_night_veil(raised, transmittance));
         radiance = mix(above, radiance, coverage);
     }
     return GroundFragment(vec4<f32>(radiance * frame.pre_exposure, 1.0), frame.near_m / frame_depth_m(direction, t));

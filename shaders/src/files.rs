@@ -17,6 +17,7 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "clouds/clouds.wgsl",
     "clouds/detail.wgsl",
     "clouds/march.wgsl",
+    "clouds/shadow.wgsl",
     "clouds/view.wgsl",
     "common/lattice.wgsl",
     "common/noise.wgsl",

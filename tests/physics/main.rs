@@ -4,6 +4,7 @@
 mod aerial;
 mod background;
 mod cloud_pictures;
+mod cloud_shadows;
 mod clouds;
 mod dome;
 mod gpu_orders;

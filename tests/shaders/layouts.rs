@@ -6,7 +6,7 @@ use naga::{AddressSpace, Handle, Type, TypeInner};
 use tyndall_gpu::layout::StructLayout;
 use tyndall_gpu::rust_layout;
 use tyndall_render::aerial::gpu_data::Aerial;
-use tyndall_render::clouds::gpu_data::Clouds;
+use tyndall_render::clouds::gpu_data::{CloudShadow, Clouds};
 use tyndall_render::frame::gpu_data::Frame;
 use tyndall_render::landscape::gpu_data::Landscape;
 use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyLight, SkyView};
@@ -75,6 +75,7 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
         ),
         ("Aerial", rust_layout!(Aerial { columns, rows, far_m, unit })),
         clouds(),
+        cloud_shadow(),
         landscape(),
         orders(),
         ("SkyLight", rust_layout!(SkyLight { lowest_mu_sun, highest_mu_sun, top_altitude_m, lux })),
@@ -128,6 +129,28 @@ fn clouds() -> (&'static str, StructLayout) {
             detail,
             block_cells,
             low_corner_m,
+            padding,
+        }),
+    )
+}
+
+/// Twin of `CloudShadow`.
+fn cloud_shadow() -> (&'static str, StructLayout) {
+    (
+        "CloudShadow",
+        rust_layout!(CloudShadow {
+            map_corner_m,
+            map_size_m,
+            cells_corner_m,
+            cells_size_m,
+            slope,
+            floor_m,
+            ceiling_m,
+            texel_m,
+            spread,
+            layers,
+            wraps,
+            mean,
             padding,
         }),
     )

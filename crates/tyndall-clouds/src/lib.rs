@@ -11,6 +11,7 @@
 //! - [`sun_depth`]: the light volume, how much cloud lies between each cell and the sun.
 //! - [`mod@cloud_light`]: the light in every cell, what was scattered often included, for renderers that march.
 //! - [`CloudMatter`]: what all of this hands to renderers: a grid of extinction with its place, and its balls.
+//! - [`mod@floor_shadow`]: what clouds leave of the light of sun and sky on its way to the ground.
 //! - [`Metaballs`]: lists of balls for splatting and for other programs.
 //! - [`mod@reference`]: single scattering by marching and all orders by Monte Carlo, to judge renderers by.
 //!
@@ -28,6 +29,7 @@ mod edges;
 mod ellipsoids;
 mod error;
 mod fields;
+pub mod floor_shadow;
 mod fnv;
 pub mod grid_size;
 pub mod matter;
@@ -58,6 +60,7 @@ pub use edges::Edges;
 pub use ellipsoids::{Ellipsoid, EllipsoidSupply, HumidEllipsoids};
 pub use error::CloudError;
 pub use fields::CloudFields;
+pub use floor_shadow::{FloorShadow, floor_shadow};
 pub use matter::CloudMatter;
 pub use metaballs::{Metaball, Metaballs};
 pub use params::{CloudParams, VapourPattern};

@@ -104,8 +104,8 @@ impl Renderer {
         let orders = OrdersRequest { model: &model, quality: orders_quality(scene), brightness: scene.sun.brightness };
         self.tables.update_night(gpu, scene, &model, pixel_angle(&frame))?;
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
-        let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), &frame)?;
         let clouds = self.prepare_clouds(gpu, scene, target)?;
+        let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), &frame)?;
         self.record_scene(gpu, &mut encoder, (scene, landscape), target)?;
         if let Some(clouds) = &clouds {
             self.clouds.record(&mut encoder, &mut self.timer, clouds, target);
@@ -128,7 +128,7 @@ impl Renderer {
         target: &FrameTarget,
     ) -> Result<(), RenderError> {
         let dome = Dome { rings: scene.sky.dome_rings, segments: scene.sky.dome_segments };
-        let sky = self.sky.prepare(gpu, &self.tables, &self.frame, (scene.sky.mode, dome))?;
+        let sky = self.sky.prepare(gpu, (&self.tables, &self.clouds), &self.frame, (scene.sky.mode, dome))?;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("sky and ground"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -165,8 +165,13 @@ impl Renderer {
         self.light.update(gpu, encoder, &mut self.timer, &self.tables, (scene, reach))?;
         let request = AerialRequest { scene, reach, frame: (frame, &self.frame) };
         self.air.update(gpu, encoder, &mut self.timer, &self.tables, request)?;
-        let surroundings =
-            LandscapeSurroundings { frame: &self.frame, tables: &self.tables, light: &self.light, air: &self.air };
+        let surroundings = LandscapeSurroundings {
+            frame: &self.frame,
+            tables: &self.tables,
+            light: &self.light,
+            air: &self.air,
+            clouds: &self.clouds,
+        };
         self.landscape.prepare(gpu, encoder, &mut self.timer, (scene, view, size_px), surroundings)
     }
 

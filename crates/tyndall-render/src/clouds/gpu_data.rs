@@ -27,6 +27,26 @@ pub struct Clouds {
     pub padding: [f32; 2],
 }
 
+/// Twin of `CloudShadow` in `shaders/clouds/shadow.wgsl`; units and meanings there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "documented at the WGSL twin")]
+pub struct CloudShadow {
+    pub map_corner_m: [f32; 2],
+    pub map_size_m: [f32; 2],
+    pub cells_corner_m: [f32; 2],
+    pub cells_size_m: [f32; 2],
+    pub slope: [f32; 2],
+    pub floor_m: f32,
+    pub ceiling_m: f32,
+    pub texel_m: f32,
+    pub spread: f32,
+    pub layers: f32,
+    pub wraps: u32,
+    pub mean: [f32; 3],
+    pub padding: u32,
+}
+
 impl Clouds {
     /// From how clouds are drawn, what they consist of, and the extinction deep in them (1/m).
     #[must_use]

@@ -5,11 +5,12 @@
 //! them from the camera to whatever was drawn before, and lays the result over it: sunlight scattered once by its exact phase
 //! function, sunlight scattered more often by diffusion, light of sky and ground as at sea level, and the air between cloud and camera.
 //!
-//! A wrapped grid repeats to the horizon. Clouds throw no shadow on the ground or into the air yet, and the moon lights none.
+//! A wrapped grid repeats to the horizon. What clouds leave of the light is kept as data ([`CloudRenderer::shadow_bindings`]).
 
 mod building;
 pub mod gpu_data;
 mod report;
+mod shadow;
 mod skip;
 pub mod source;
 mod volume;
@@ -25,6 +26,7 @@ use tyndall_scene::Scene;
 use crate::sky::{SkyTables, TableBuilding};
 use crate::{FrameTarget, RenderError, RendererConfig};
 use gpu_data::{Clouds, transport};
+use shadow::CloudShadow;
 use source::CloudSourceRequest;
 use volume::{CloudVolume, LightRequest, VolumeRequest};
 
@@ -35,6 +37,7 @@ pub struct CloudRenderer {
     uniform: Buffer,
     sampler: wgpu::Sampler,
     volume: CloudVolume,
+    shadow: CloudShadow,
     /// Copy of the frame without clouds: blending 32-bit floats is not everywhere possible.
     behind: Option<Texture>,
 }
@@ -87,6 +90,7 @@ impl CloudRenderer {
             uniform: gpu.buffer("clouds", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
             sampler,
             volume: CloudVolume::default(),
+            shadow: CloudShadow::new(gpu)?,
             behind: None,
         })
     }
@@ -118,16 +122,21 @@ impl CloudRenderer {
         surroundings: CloudSurroundings<'_>,
         target: &FrameTarget,
     ) -> Result<Option<CloudDrawData>, RenderError> {
+        self.shadow.update(gpu, None);
         let Some(source) = CloudSourceRequest::of(scene) else {
             self.volume.rest();
             return Ok(None);
         };
-        let light =
-            LightRequest { to_sun: scene.sun_direction()?.unit().to_array(), transport: transport(&scene.clouds) };
+        let light = LightRequest {
+            to_sun: scene.sun_direction()?.unit().to_array(),
+            sun_radius_rad: scene.sun.angular_radius_deg.to_radians(),
+            transport: transport(&scene.clouds),
+        };
         let Some(shown) = self.volume.update(gpu, &VolumeRequest { source, light })? else { return Ok(None) };
         let textures = &shown.textures;
         let uniform = Clouds::new(&scene.clouds, &shown.matter, scene.cloud_matter.extinction_per_m);
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        self.shadow.update(gpu, Some(&textures.shadow.1));
         let behind = copy_of_frame(gpu, &mut self.behind, target)?;
         let tables = surroundings.tables;
         let mut sky = tables.view_bindings().to_vec();
@@ -144,6 +153,14 @@ impl CloudRenderer {
         let bindings =
             [self.pipeline.bind(gpu, 0, &sky)?, self.pipeline.bind(gpu, 1, &frame)?, self.pipeline.bind(gpu, 2, &own)?];
         Ok(Some(CloudDrawData { bindings }))
+    }
+
+    /// What `clouds/shadow.wgsl` needs, by the names of its variables: what the clouds of the last scene that was prepared
+    /// leave of its light.
+    #[must_use]
+    pub fn shadow_bindings(&self) -> [(&'static str, wgpu::BindingResource<'_>); 4] {
+        let textures = self.volume.textures().filter(|_| self.shadow.is_of_clouds());
+        self.shadow.bindings(textures.map(|textures| [&textures.shadow.0, &textures.cells]))
     }
 
     /// Records the clouds over what the target's frame shows.

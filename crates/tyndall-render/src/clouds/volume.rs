@@ -3,14 +3,16 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use tyndall_clouds::{CloudLight, CloudMatter, cloud_light};
+use tyndall_clouds::{CloudLight, CloudMatter, FloorShadow, cloud_light, floor_shadow};
 use tyndall_core::array::NamedArrays;
 use tyndall_core::grid::Grid3;
 use tyndall_gpu::wgpu::{self, TextureFormat, TextureUsages};
 use tyndall_gpu::{Gpu, Texture, TextureDesc};
 
 use super::building::{CloudProgress, Making};
+use super::gpu_data;
 use super::report::{CloudReport, CloudTimes};
+use super::shadow::shadow_map;
 use super::skip::skip_cells;
 use super::source::{CloudSource, CloudSourceRequest};
 use crate::RenderError;
@@ -33,6 +35,8 @@ pub(super) struct VolumeRequest {
 pub(super) struct LightRequest {
     /// Direction to the sun.
     pub(super) to_sun: [f64; 3],
+    /// Angular radius (rad) of the sun's disc.
+    pub(super) sun_radius_rad: f64,
     /// One less the mean cosine of scattering.
     pub(super) transport: f64,
 }
@@ -42,6 +46,8 @@ pub(super) struct LightRequest {
 pub(super) struct Volume {
     pub(super) matter: Arc<CloudMatter>,
     texels: Vec<[u16; 4]>,
+    /// Light below them, from fine to coarse.
+    shadow: Vec<FloorShadow>,
     /// How far rays may jump.
     skips: Arc<Grid3<u8>>,
     report: Option<Arc<CloudReport>>,
@@ -68,12 +74,13 @@ impl VolumeMaker {
     ) -> Result<Option<Volume>, RenderError> {
         let Some(matter) = self.source.matter_unless(&request.source, is_stale)? else { return Ok(None) };
         let started = Instant::now();
-        let LightRequest { to_sun, transport } = request.light;
+        let LightRequest { to_sun, transport, .. } = request.light;
         let light = cloud_light(&matter.extinction_per_m, matter.cell_m, to_sun, transport, matter.edges)?;
         let texels = texels(&matter.extinction_per_m, &light);
+        let shadow = floor_shadow(&matter.extinction_per_m, matter.cell_m, to_sun, transport, matter.edges)?.levels();
         let times = CloudTimes { step: self.source.step_time(), light: started.elapsed() };
         let report = self.source.simulation().map(|simulation| Arc::new(CloudReport::new(simulation, times)));
-        Ok(Some(Volume { texels, skips: self.skips(&matter), report, matter }))
+        Ok(Some(Volume { texels, shadow, skips: self.skips(&matter), report, matter }))
     }
 
     fn skips(&mut self, matter: &Arc<CloudMatter>) -> Arc<Grid3<u8>> {
@@ -90,6 +97,8 @@ pub(super) struct CloudTextures {
     pub(super) cells: Texture,
     /// How far rays may jump, for each block.
     pub(super) skips: Texture,
+    /// Light on the floor below the cells, and where it is.
+    pub(super) shadow: (Texture, gpu_data::CloudShadow),
 }
 
 /// The textures that are shown.
@@ -123,6 +132,11 @@ impl CloudVolume {
     pub(super) fn start_from(&mut self, state: Option<NamedArrays>) {
         self.making.start_from(state);
         (self.shown, self.refused) = (None, None);
+    }
+
+    /// The textures that are shown.
+    pub(super) fn textures(&self) -> Option<&CloudTextures> {
+        self.shown.as_ref().map(|shown| &shown.textures)
     }
 
     /// How it stands since the last update.
@@ -159,11 +173,12 @@ impl CloudVolume {
     fn show(&mut self, gpu: &Gpu, request: VolumeRequest, volume: Volume) -> Result<(), RenderError> {
         // The old ones give their memory back first.
         self.shown = None;
-        let Volume { matter, texels, skips, report } = volume;
+        let Volume { matter, texels, shadow, skips, report } = volume;
         let bytes = bytemuck::cast_slice::<_, u8>(&texels);
         let cells = filled(gpu, "clouds", (matter.extinction_per_m.size(), TextureFormat::Rgba16Float, 8), bytes)?;
         let skips = filled(gpu, "clouds' gaps", (skips.size(), TextureFormat::R8Uint, 1), skips.cells())?;
-        self.shown = Some(ShownClouds { request, matter, textures: CloudTextures { cells, skips }, report });
+        let shadow = (shadow_map(gpu, &shadow)?, gpu_data::CloudShadow::new(&matter, &request.light, &shadow));
+        self.shown = Some(ShownClouds { request, matter, textures: CloudTextures { cells, skips, shadow }, report });
         Ok(())
     }
 }

@@ -17,6 +17,7 @@ use tyndall_scene::Scene;
 use tyndall_scene::landscape::Landscape as Model;
 
 use crate::aerial::AerialVolume;
+use crate::clouds::CloudRenderer;
 use crate::sky::{SkyLightReach, SkyLightTable, SkyTables};
 use crate::target::DEPTH_FORMAT;
 use crate::{RenderError, RendererConfig, View};
@@ -42,7 +43,7 @@ pub struct LandscapeRenderer {
 /// What is drawn of a frame's landscape.
 #[derive(Debug)]
 pub struct LandscapeDrawData {
-    terrain: [wgpu::BindGroup; 3],
+    terrain: [wgpu::BindGroup; 4],
     mesh: Mesh,
 }
 
@@ -57,6 +58,8 @@ pub struct LandscapeSurroundings<'a> {
     pub light: &'a SkyLightTable,
     /// Air in front of the camera, filled for [`reach`].
     pub air: &'a AerialVolume,
+    /// The clouds, prepared for the scene.
+    pub clouds: &'a CloudRenderer,
 }
 
 /// How far the light on the landscape of a grounded scene must reach; `None` without a landscape in sight.
@@ -138,7 +141,13 @@ impl LandscapeRenderer {
         ];
         let frame = [("frame", surroundings.frame.as_entire_binding())];
         let terrain = &self.terrain;
-        let groups = [terrain.bind(gpu, 0, &sky)?, terrain.bind(gpu, 1, &frame)?, terrain.bind(gpu, 2, &own)?];
+        let shade = surroundings.clouds.shadow_bindings();
+        let groups = [
+            terrain.bind(gpu, 0, &sky)?,
+            terrain.bind(gpu, 1, &frame)?,
+            terrain.bind(gpu, 2, &own)?,
+            terrain.bind(gpu, 3, &shade)?,
+        ];
         Ok(Some(LandscapeDrawData { terrain: groups, mesh }))
     }
 

@@ -6,6 +6,7 @@ use tyndall_scattering::dome::Dome;
 use tyndall_scene::SkyMode;
 
 use super::tables::SkyTables;
+use crate::clouds::CloudRenderer;
 use crate::target::DEPTH_FORMAT;
 use crate::{RenderError, RendererConfig};
 
@@ -21,6 +22,8 @@ pub struct SkyRenderer {
 #[derive(Debug)]
 pub struct SkyDrawData {
     ground: [wgpu::BindGroup; 2],
+    /// What clouds leave of the ground's light.
+    shade: wgpu::BindGroup,
     sky: [wgpu::BindGroup; 2],
     /// The dome's mesh, or `None` for the sky per pixel.
     dome: Option<Dome>,
@@ -63,14 +66,14 @@ impl SkyRenderer {
         })
     }
 
-    /// Binds the tables for one frame.
+    /// Binds the tables, and the shadow of the clouds that were prepared, for one frame.
     ///
     /// # Errors
     /// When a table does not fit the shaders.
     pub fn prepare(
         &self,
         gpu: &Gpu,
-        tables: &SkyTables,
+        (tables, clouds): (&SkyTables, &CloudRenderer),
         frame: &Buffer,
         (mode, dome): (SkyMode, Dome),
     ) -> Result<SkyDrawData, RenderError> {
@@ -85,6 +88,7 @@ impl SkyRenderer {
         let frame = [("frame", frame.as_entire_binding())];
         Ok(SkyDrawData {
             ground: [self.ground.bind(gpu, 0, &with_irradiance)?, self.ground.bind(gpu, 1, &frame)?],
+            shade: self.ground.bind(gpu, 3, &clouds.shadow_bindings())?,
             sky: [sky.bind(gpu, 0, &with_night)?, sky.bind(gpu, 1, &frame)?],
             dome: (mode == SkyMode::VertexDome).then_some(dome),
         })
@@ -92,16 +96,20 @@ impl SkyRenderer {
 
     /// Draws the ground, then the sky where nothing else is.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, data: &SkyDrawData) {
-        let mut draw = |pipeline: &RenderPipeline, bindings: &[wgpu::BindGroup; 2], vertices: u32| {
+        let draw = |pass: &mut wgpu::RenderPass<'_>,
+                    pipeline: &RenderPipeline,
+                    bindings: &[wgpu::BindGroup; 2],
+                    vertices: u32| {
             pass.set_pipeline(pipeline.raw());
             pass.set_bind_group(0, &bindings[0], &[]);
             pass.set_bind_group(1, &bindings[1], &[]);
             pass.draw(0..vertices, 0..1);
         };
-        draw(&self.ground, &data.ground, 3);
+        pass.set_bind_group(3, &data.shade, &[]);
+        draw(pass, &self.ground, &data.ground, 3);
         match data.dome {
-            Some(dome) => draw(&self.dome, &data.sky, dome.vertex_count()),
-            None => draw(&self.per_pixel, &data.sky, 3),
+            Some(dome) => draw(pass, &self.dome, &data.sky, dome.vertex_count()),
+            None => draw(pass, &self.per_pixel, &data.sky, 3),
         }
     }
 }
