@@ -4,8 +4,8 @@
 //! except where all orders matter: the tables of the others take seconds on a software adapter.
 
 use tyndall_scene::{
-    AerosolInput, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, OrdersDetail, Scene,
-    SkyMode, SunPosition,
+    AerosolInput, CloudFileHolds, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders,
+    OrdersDetail, Scene, SkyMode, SunPosition,
 };
 
 /// A scene and the parameters that are tried in it.
@@ -245,7 +245,7 @@ pub(crate) const ALL: &[Precondition] = &[
         name: "a few clouds of a small grid",
         prepare: cloudy,
         parameters: &[
-            ("clouds.kind", None),
+            ("clouds.kind", Some(0.0)),
             ("clouds.time_s", Some(400.0)),
             ("clouds.reach_km", Some(2.0)),
             ("clouds.orders", None),
@@ -283,6 +283,15 @@ pub(crate) const ALL: &[Precondition] = &[
             ("cloud_matter.smooth_cells", Some(0.0)),
             ("cloud_matter.smooth_steps", Some(0.0)),
             ("cloud_matter.threshold", Some(0.3)),
+        ],
+    },
+    Precondition {
+        name: "clouds of a file with balls",
+        prepare: balls_of_a_file,
+        parameters: &[
+            ("clouds.file_holds", None),
+            ("clouds.file_ball_place", Some(0.1)),
+            ("clouds.file_samples", Some(3.0)),
         ],
     },
     Precondition {
@@ -325,6 +334,15 @@ fn cloudy(scene: &mut Scene) {
     scene.camera.pitch_deg = 40.0;
     let grid = &mut scene.cloud_grid;
     (grid.cells_east, grid.cells_north, grid.cells_up, grid.warm_up_steps) = (32, 32, 16, 20);
+}
+
+/// A small grid of balls over a camera that looks up at it.
+fn balls_of_a_file(scene: &mut Scene) {
+    cloudy(scene);
+    scene.clouds.kind = CloudKind::File;
+    concat!(env!("CARGO_MANIFEST_DIR"), "/data/small_cloud.npy").clone_into(&mut scene.clouds.file);
+    scene.clouds.file_holds = CloudFileHolds::Balls;
+    scene.cloud_grid.cell_m = 60.0;
 }
 
 /// The sun far below the horizon, and a film for starlight.

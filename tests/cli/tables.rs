@@ -15,7 +15,7 @@ fn json(words: &[&str]) -> Value {
 }
 
 fn parameter_count() -> usize {
-    Scene::default().groups().iter().map(|(_, set)| set.info().len()).sum()
+    Scene::default().groups().iter().map(|(_, set)| set.info().len() + set.text_info().len()).sum()
 }
 
 #[test]

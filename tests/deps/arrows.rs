@@ -15,7 +15,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tyndall-io", &["tyndall-core"]),
     ("tyndall-scene", &["tyndall-core", "tyndall-scattering", "tyndall-clouds", "tyndall-assets"]),
     ("tyndall-gpu", &["tyndall-shaders", "tyndall-core"]),
-    ("tyndall-render", &["tyndall-gpu", "tyndall-scene"]),
+    ("tyndall-render", &["tyndall-gpu", "tyndall-scene", "tyndall-io"]),
     ("tyndall-cli", &["tyndall-render", "tyndall-io"]),
     ("tyndall-app", &["tyndall-render", "tyndall-io"]),
     ("tyndall", &["tyndall-render", "tyndall-io", "tyndall-dunes"]),

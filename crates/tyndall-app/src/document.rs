@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use egui::util::undoer::{Settings, Undoer};
+use tyndall_core::ParamSet;
 use tyndall_scene::{Preset, Scene, SceneError, SceneFile};
 
 /// Seconds without a change after which an undo point is set.
@@ -110,9 +111,7 @@ impl Document {
     /// Gives every parameter its default; title and description stay.
     pub(crate) fn reset(&mut self) {
         for (_, set) in self.scene_mut().groups_mut() {
-            for (index, info) in set.info().iter().enumerate() {
-                set.set_unchecked(index, info.default);
-            }
+            reset_set(set);
         }
     }
 
@@ -151,9 +150,14 @@ impl Document {
 pub(crate) fn reset_group(scene: &mut Scene, group: &str) {
     for (name, set) in scene.groups_mut() {
         if name == group {
-            set.info().iter().enumerate().for_each(|(index, info)| set.set_unchecked(index, info.default));
+            reset_set(set);
         }
     }
+}
+
+fn reset_set(set: &mut dyn ParamSet) {
+    set.info().iter().enumerate().for_each(|(index, info)| set.set_unchecked(index, info.default));
+    set.text_info().iter().enumerate().for_each(|(index, info)| set.put_text_unchecked(index, info.default));
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Which parameters have no effect at present, and why: the app shows those disabled.
 
 use tyndall_scene::{
-    AerosolInput, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, Scene, SkyMode, SunPosition,
+    AerosolInput, CloudFileHolds, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, Scene,
+    SkyMode, SunPosition,
 };
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
@@ -25,6 +26,7 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
         {
             Some("There are no clouds; set Kind of clouds to one.")
         }
+        ("clouds" | "cloud_grid" | "cloud_vapour" | "cloud_wind" | "cloud_matter", name) => clouds(scene, group, name),
         ("ground", "red" | "green" | "blue") if scene.ground.material.name() != "colour" => {
             Some("The ground has the spectrum of a material; set Material to colour.")
         }
@@ -53,6 +55,32 @@ fn landscape(kind: LandscapeKind, name: &str) -> Option<&'static str> {
         _ => None,
     }
 }
+
+/// Of clouds that there are.
+fn clouds(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
+    let clouds = &scene.clouds;
+    let from_file = clouds.kind == CloudKind::File;
+    let holds_balls = clouds.file_holds == CloudFileHolds::Balls;
+    match (group, name) {
+        ("clouds", "file" | "array" | "file_holds" | "file_ball_place" | "file_samples") if !from_file => {
+            Some("The clouds come from the automaton; set Kind to file.")
+        }
+        ("clouds", "file_ball_place" | "file_samples") if !holds_balls => {
+            Some("The file holds the cloud itself; set File holds to balls.")
+        }
+        ("clouds", "time_s") | ("cloud_vapour" | "cloud_wind", _) if from_file => Some(STILL),
+        ("cloud_grid", "cells_east" | "cells_north" | "cells_up" | "seed" | "warm_up_steps" | "step_s")
+        | ("cloud_matter", "smooth_cells" | "smooth_steps" | "threshold")
+            if from_file =>
+        {
+            Some(STILL)
+        }
+        _ => None,
+    }
+}
+
+/// Why the automaton's parameters are idle.
+const STILL: &str = "The clouds come from a file; set Kind to automaton.";
 
 fn sun(scene: &Scene, name: &str) -> Option<&'static str> {
     let by_date = scene.sun.position == SunPosition::Date;

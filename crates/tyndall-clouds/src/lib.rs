@@ -63,7 +63,7 @@ pub use fields::CloudFields;
 pub use floor_shadow::{FloorShadow, floor_shadow};
 pub use matter::CloudMatter;
 pub use metaballs::{Metaball, Metaballs};
-pub use params::{CloudParams, VapourPattern};
+pub use params::{CloudGridParams, CloudMatterParams, CloudParams, VapourPattern};
 pub use probability::{Probabilities, ProbabilityLayer, ProbabilityRow};
 pub use simulation::CloudSimulation;
 pub use smoothing::SmoothingWindow;

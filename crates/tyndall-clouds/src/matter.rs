@@ -24,6 +24,8 @@ pub struct CloudMatter {
     pub low_corner_m: [f64; 3],
     /// What lies beyond the sides.
     pub edges: Edges,
+    /// Extinction deep in the cloud (1/m), against which its edges are thin.
+    pub full_per_m: f64,
     balls: BallSource,
 }
 
@@ -53,6 +55,7 @@ impl CloudMatter {
             extinction_per_m,
             cell_m,
             edges: grid.edges,
+            full_per_m: params.matter.extinction_per_m,
             balls: BallSource::Lattice { peaks_per_m, radius_m: params.matter.ball_radius_cells * cell_m },
         })
     }
@@ -66,14 +69,17 @@ impl CloudMatter {
         edges: Edges,
         radius_m: f64,
     ) -> Self {
-        Self { extinction_per_m, cell_m, low_corner_m, edges, balls: BallSource::Cells { radius_m } }
+        let full_per_m = most(&extinction_per_m);
+        Self { extinction_per_m, cell_m, low_corner_m, edges, full_per_m, balls: BallSource::Cells { radius_m } }
     }
 
     /// Of balls, sampled on a grid.
     #[must_use]
     pub fn of_balls(list: Metaballs, grid: &BallGrid) -> Self {
+        let extinction_per_m = grid.extinction_per_m(&list);
         Self {
-            extinction_per_m: grid.extinction_per_m(&list),
+            full_per_m: most(&extinction_per_m),
+            extinction_per_m,
             cell_m: grid.cell_m,
             low_corner_m: grid.low_corner_m,
             edges: grid.edges,
@@ -85,6 +91,12 @@ impl CloudMatter {
     #[must_use]
     pub fn extent_m(&self) -> [f64; 3] {
         self.extinction_per_m.size().map(|count| count as f64 * self.cell_m)
+    }
+
+    /// The largest extinction of all cells (1/m).
+    #[must_use]
+    pub fn most_per_m(&self) -> f64 {
+        most(&self.extinction_per_m)
     }
 
     /// The balls that add up to this cloud.
@@ -110,6 +122,11 @@ impl CloudMatter {
         };
         Metaballs { balls: filled.map(ball).collect() }
     }
+}
+
+/// The largest extinction (1/m).
+fn most(extinction_per_m: &Grid3<f32>) -> f64 {
+    f64::from(extinction_per_m.cells().iter().copied().fold(0.0, f32::max))
 }
 
 /// Low corner (m) of a grid that is centred on the scene's origin.

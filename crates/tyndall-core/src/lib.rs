@@ -22,4 +22,4 @@ pub mod spectrum;
 pub mod table_store;
 pub mod units;
 
-pub use params::{ParamError, ParamInfo, ParamKind, ParamSet, Scale};
+pub use params::{ParamError, ParamInfo, ParamKind, ParamSet, Scale, TextInfo};

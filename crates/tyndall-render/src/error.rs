@@ -25,6 +25,9 @@ pub enum RenderError {
     /// What an earlier frame was refused for, asked for again.
     #[error(transparent)]
     Refused(Arc<Self>),
+    /// Of the clouds' file.
+    #[error(transparent)]
+    CloudFile(#[from] crate::clouds::source::CloudFileError),
     /// The target was made for another renderer configuration.
     #[error("the frame target has {target:?}, the renderer draws {renderer:?}")]
     Configuration {

@@ -12,7 +12,11 @@ impl Scene {
         let pairs = groups.flat_map(|((group, mine), (_, theirs))| {
             let infos = mine.info().iter().enumerate();
             let changed = infos.filter(move |(index, _)| mine.get(*index).total_cmp(&theirs.get(*index)).is_ne());
-            changed.map(move |(index, info)| format!("{group}.{}={}", info.name, info.format(mine.get(index))))
+            let numbers =
+                changed.map(move |(index, info)| format!("{group}.{}={}", info.name, info.format(mine.get(index))));
+            let texts = mine.text_info().iter().enumerate();
+            let changed = texts.filter(move |(index, _)| mine.text(*index) != theirs.text(*index));
+            numbers.chain(changed.map(move |(index, info)| format!("{group}.{}={}", info.name, mine.text(index))))
         });
         pairs.collect()
     }

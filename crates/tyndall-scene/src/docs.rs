@@ -60,7 +60,7 @@ mod tests {
         let schema = schema();
         for (group, set) in Scene::default().groups() {
             let properties = schema["properties"][group]["properties"].as_object();
-            assert_eq!(properties.map(Map::len), Some(set.info().len()), "{group}");
+            assert_eq!(properties.map(Map::len), Some(set.info().len() + set.text_info().len()), "{group}");
         }
         assert_eq!(schema["additionalProperties"], false, "{schema}");
         assert_eq!(schema["properties"]["format"]["const"], FORMAT, "{schema}");

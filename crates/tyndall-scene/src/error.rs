@@ -245,7 +245,9 @@ fn name_of(error: &ParamError) -> &str {
         ParamError::Unknown { name } => name,
         ParamError::OutOfRange { name, .. }
         | ParamError::NotWhole { name, .. }
-        | ParamError::WrongKind { name, .. } => name,
+        | ParamError::WrongKind { name, .. }
+        | ParamError::Text { name, .. }
+        | ParamError::IsText { name } => name,
     }
 }
 

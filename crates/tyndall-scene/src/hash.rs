@@ -20,6 +20,9 @@ impl SceneHash {
                 let value = info.format(set.get(index) + 0.0);
                 hasher.update(format!("{group}.{}={value}\n", info.name).as_bytes());
             }
+            for (index, info) in set.text_info().iter().enumerate() {
+                hasher.update(format!("{group}.{}={}\n", info.name, set.text(index)).as_bytes());
+            }
         }
         Self(*hasher.finalize().as_bytes())
     }

@@ -18,6 +18,7 @@ mod command_line;
 mod docs;
 mod error;
 mod file;
+mod files;
 mod hash;
 pub mod landscape;
 mod nearest;
@@ -33,9 +34,9 @@ pub use error::SceneError;
 pub use file::{FORMAT, MAX_BYTES, SceneFile};
 pub use hash::SceneHash;
 pub use params::{
-    CameraParams, CloudKind, CloudsParams, ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams,
-    MoonParams, MoonPhase, MoonPosition, Orders, OrdersDetail, SkyMode, SkyParams, StarsParams, SunParams, SunPosition,
-    ToneMap,
+    CameraParams, CloudFileHolds, CloudKind, CloudsParams, ExposureMode, FilmParams, ImageParams, LandscapeKind,
+    LandscapeParams, MoonParams, MoonPhase, MoonPosition, Orders, OrdersDetail, SkyMode, SkyParams, StarsParams,
+    SunParams, SunPosition, ToneMap,
 };
 pub use place::Place;
 pub use preset::{Preset, presets};

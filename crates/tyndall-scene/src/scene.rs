@@ -1,7 +1,9 @@
 //! The scene: all groups of parameters, reached by path.
 
+use std::path::PathBuf;
+
 use tyndall_core::units::M_PER_KM;
-use tyndall_core::{ParamInfo, ParamSet};
+use tyndall_core::{ParamError, ParamInfo, ParamSet};
 use tyndall_scattering::aerosol::clearest_visibility_km;
 use tyndall_scattering::refraction::RefractiveAir;
 
@@ -23,6 +25,8 @@ pub struct Scene {
     pub title: String,
     /// What the scene shows.
     pub description: String,
+    /// Folder that relative paths in the scene start from: that of its file, or where the program runs when empty.
+    pub folder: PathBuf,
     /// Where the camera stands and looks.
     pub camera: CameraParams,
     /// Where the sun stands and what its disc looks like.
@@ -126,6 +130,12 @@ impl Scene {
     /// # Errors
     /// When there is no such parameter or the text is not an allowed value.
     pub fn set_text(&mut self, path: &str, text: &str) -> Result<(), SceneError> {
+        let (group, name) = path.split_once('.').unwrap_or((path, ""));
+        for (group, set) in self.groups_mut().into_iter().filter(|(known, _)| *known == group) {
+            if set.text_position(name).is_some() {
+                return set.set_text(name, text).map_err(|source| SceneError::Value { group, source });
+            }
+        }
         self.set_checked(path, |info| info.parse(text))
     }
 
@@ -155,18 +165,18 @@ impl Scene {
         let grid = &self.cloud_grid;
         let size = [grid.cells_east, grid.cells_north, grid.cells_up];
         let cells = size.map(u64::from).iter().product::<u64>();
-        if self.clouds.kind != CloudKind::None && cells > MOST_CLOUD_CELLS {
+        if self.clouds.kind == CloudKind::Automaton && cells > MOST_CLOUD_CELLS {
             return Err(SceneError::CloudCells { size });
         }
         Ok(())
     }
 
-    /// The clouds' simulation, all groups together; `None` without clouds.
+    /// The clouds' simulation, all groups together; `None` without clouds and for those of a file.
     #[must_use]
     pub fn cloud_params(&self) -> Option<CloudParams> {
         let (grid, vapour) = (self.cloud_grid.clone(), self.cloud_vapour.clone());
         let (wind, matter) = (self.cloud_wind.clone(), self.cloud_matter.clone());
-        (self.clouds.kind != CloudKind::None).then_some(CloudParams { grid, vapour, wind, matter })
+        (self.clouds.kind == CloudKind::Automaton).then_some(CloudParams { grid, vapour, wind, matter })
     }
 
     /// Planet, air and ground as the model that all light transport reads, at the eight wavelengths.
@@ -235,7 +245,7 @@ impl Scene {
     fn set_checked(
         &mut self,
         path: &str,
-        value: impl Fn(&ParamInfo) -> Result<f64, tyndall_core::ParamError>,
+        value: impl Fn(&ParamInfo) -> Result<f64, ParamError>,
     ) -> Result<(), SceneError> {
         let (group, index) = self.find(path)?;
         let (group, set) = &mut self.groups_mut()[group];
@@ -253,8 +263,11 @@ impl Scene {
         let Some(group) = groups.iter().position(|(known, _)| *known == group_name) else {
             return Err(self.unknown_group(group_name));
         };
-        let index = groups[group].1.position(name).map_err(|_unknown| self.unknown_parameter(group_name, name))?;
-        Ok((group, index))
+        match groups[group].1.position(name) {
+            Ok(index) => Ok((group, index)),
+            Err(source @ ParamError::IsText { .. }) => Err(SceneError::Value { group: groups[group].0, source }),
+            Err(_unknown) => Err(self.unknown_parameter(group_name, name)),
+        }
     }
 
     /// The refusal of a group, with the nearest group or, for a parameter without its group, the parameter's path.
@@ -268,14 +281,16 @@ impl Scene {
     pub(crate) fn unknown_parameter(&self, group: &str, name: &str) -> SceneError {
         let name = &brief(name);
         let set = self.groups().into_iter().find(|(known, _)| *known == group);
-        let names = set.iter().flat_map(|(_, set)| set.info()).map(|info| info.name);
+        let texts = set.iter().flat_map(|(_, set)| set.text_info()).map(|info| info.name);
+        let names = set.iter().flat_map(|(_, set)| set.info()).map(|info| info.name).chain(texts);
         let near = nearest(name, names).map(|near| format!("{group}.{near}"));
         SceneError::UnknownParameter { path: format!("{group}.{name}"), nearest: self.home_of(name).or(near) }
     }
 
     /// Path of the parameter with exactly this name in any group.
     fn home_of(&self, name: &str) -> Option<String> {
-        let home = self.groups().into_iter().find(|(_, set)| set.position(name).is_ok());
+        let home =
+            self.groups().into_iter().find(|(_, set)| set.position(name).is_ok() || set.text_position(name).is_some());
         home.map(|(group, _)| format!("{group}.{name}"))
     }
 }
@@ -283,6 +298,9 @@ impl Scene {
 fn check_group(group: &'static str, set: &dyn ParamSet) -> Result<(), SceneError> {
     for (index, info) in set.info().iter().enumerate() {
         info.check(set.get(index)).map_err(|source| SceneError::Value { group, source })?;
+    }
+    for (index, info) in set.text_info().iter().enumerate() {
+        info.check(set.text(index)).map_err(|source| SceneError::Value { group, source })?;
     }
     Ok(())
 }

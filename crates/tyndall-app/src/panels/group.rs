@@ -1,10 +1,10 @@
 //! A group of parameters: a foldable list of rows with a button that resets them all.
 
 use egui::{Button, CollapsingHeader, Rect, RichText, Ui, UiBuilder, vec2};
-use tyndall_core::{ParamInfo, ParamSet};
+use tyndall_core::{ParamInfo, ParamSet, TextInfo};
 use tyndall_scene::Scene;
 
-use super::row;
+use super::{row, text_row};
 use crate::{document::reset_group, relevance::no_effect};
 
 /// Groups that have panels of their own.
@@ -27,12 +27,20 @@ pub(crate) fn rows(ui: &mut Ui, scene: &mut Scene, group: &str, filter: &str) {
             row::show(ui, group, *set, index, reason);
         }
     }
+    for (index, info) in scene.groups()[position].1.text_info().iter().enumerate() {
+        if matches_text(group, info, filter) {
+            let reason = no_effect(scene, group, info.name);
+            let (group, set) = &mut scene.groups_mut()[position];
+            text_row::show(ui, group, *set, index, reason);
+        }
+    }
 }
 
 /// Shows a group below a heading; nothing when the filter leaves nothing.
 pub(crate) fn show(ui: &mut Ui, scene: &mut Scene, group: &str, filter: &str) {
     let Some((_, set)) = scene.groups().into_iter().find(|(name, _)| *name == group) else { return };
-    if !set.info().iter().any(|info| matches(group, info, filter)) {
+    let has_text = set.text_info().iter().any(|info| matches_text(group, info, filter));
+    if !has_text && !set.info().iter().any(|info| matches(group, info, filter)) {
         return;
     }
     let changed = count_changed(set);
@@ -64,7 +72,9 @@ fn reset_button(ui: &mut Ui, heading_rect: Rect, scene: &mut Scene, group: &str)
 
 fn count_changed(set: &dyn ParamSet) -> usize {
     let infos = set.info().iter().enumerate();
+    let texts = set.text_info().iter().enumerate();
     infos.filter(|(index, info)| set.get(*index).total_cmp(&info.default).is_ne()).count()
+        + texts.filter(|(index, info)| set.text(*index) != info.default).count()
 }
 
 /// The group's name with a capital.
@@ -75,7 +85,16 @@ fn heading(group: &str) -> String {
 
 /// Whether every word of the filter is somewhere in what is known about the parameter.
 fn matches(group: &str, info: &ParamInfo, filter: &str) -> bool {
-    let known = format!("{group} {} {} {} {}", info.name, info.label(), info.doc, info.source).to_lowercase();
+    has_words(&format!("{group} {} {} {} {}", info.name, info.label(), info.doc, info.source), filter)
+}
+
+/// [`matches`] for a text.
+fn matches_text(group: &str, info: &TextInfo, filter: &str) -> bool {
+    has_words(&format!("{group} {} {} {} {}", info.name, info.label(), info.doc, info.source), filter)
+}
+
+fn has_words(known: &str, filter: &str) -> bool {
+    let known = known.to_lowercase();
     filter.to_lowercase().split_whitespace().all(|word| known.contains(word))
 }
 

@@ -9,6 +9,7 @@ pub(crate) mod log;
 pub(crate) mod parameters;
 pub(crate) mod plots;
 pub(crate) mod row;
+mod text_row;
 pub(crate) mod time;
 pub(crate) mod timings;
 pub(crate) mod validate;

@@ -9,13 +9,13 @@ use egui::{
 use tyndall_core::{ParamInfo, ParamKind, ParamSet, Scale};
 
 /// Widths of the columns in a wide panel, and the least they shrink to in a narrow one; the slider takes the rest.
-const LABEL_PT: Rangef = Rangef { min: 76.0, max: 132.0 };
+pub(crate) const LABEL_PT: Rangef = Rangef { min: 76.0, max: 132.0 };
 const NUMBER_PT: Rangef = Rangef { min: 62.0, max: 92.0 };
 const RESET_PT: f32 = 20.0;
 const MIN_SLIDER_PT: f32 = 24.0;
 
 /// Shares of the panel's width that names and numbers get between these limits.
-const LABEL_SHARE: f32 = 0.36;
+pub(crate) const LABEL_SHARE: f32 = 0.36;
 const NUMBER_SHARE: f32 = 0.26;
 
 /// Dragging a number over this many points covers the range of a linear parameter.

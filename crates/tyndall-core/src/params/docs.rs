@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value, json};
 
-use super::{ParamInfo, ParamKind, ParamSet};
+use super::{MAX_TEXT_BYTES, ParamInfo, ParamKind, ParamSet};
 
 /// A Markdown table of the named groups, one row per parameter. The same text in the README, in `tyndall params` and in
 /// a test that compares the two.
@@ -25,6 +25,13 @@ pub fn markdown_table(groups: &[(&str, &dyn ParamSet)]) -> String {
                 info.source
             );
         }
+        for info in set.text_info() {
+            let _ = writeln!(
+                table,
+                "| `{group}.{}` | {:?} | text | {} | {} |",
+                info.name, info.default, info.doc, info.source
+            );
+        }
     }
     table
 }
@@ -40,8 +47,15 @@ fn allowed(info: &ParamInfo) -> String {
 /// JSON schema (draft 2020-12) of one group: an object without unknown keys.
 #[must_use]
 pub fn json_schema(set: &dyn ParamSet) -> Value {
-    let properties: Map<String, Value> =
-        set.info().iter().map(|info| (info.name.to_owned(), json_schema_of(info))).collect();
+    let texts = set.text_info().iter().map(|info| {
+        let description = format!("{} Source: {}.", info.doc, info.source);
+        let schema = json!({
+            "type": "string", "maxLength": MAX_TEXT_BYTES, "default": info.default, "description": description,
+        });
+        (info.name.to_owned(), schema)
+    });
+    let numbers = set.info().iter().map(|info| (info.name.to_owned(), json_schema_of(info)));
+    let properties: Map<String, Value> = numbers.chain(texts).collect();
     json!({ "type": "object", "additionalProperties": false, "properties": properties })
 }
 
@@ -74,6 +88,10 @@ mod tests {
             /// Shown or not.
             shown: bool = false, "Example, eq. 2";
         }
+        text {
+            /// What it is called.
+            nickname = "it", "Example";
+        }
     }
 
     #[test]
@@ -82,6 +100,7 @@ mod tests {
         let rows: Vec<_> = table.lines().skip(2).collect();
         assert_eq!(rows[0], "| `thing.height_m` | 2.0 m | 0.5 to 8 | Height of the thing. | Example, eq. 1 |");
         assert_eq!(rows[1], "| `thing.shown` | false | true, false | Shown or not. | Example, eq. 2 |");
+        assert_eq!(rows[2], "| `thing.nickname` | \"it\" | text | What it is called. | Example |");
     }
 
     #[test]
@@ -89,6 +108,7 @@ mod tests {
         let schema = json_schema(&Example::default());
         assert_eq!(schema["properties"]["height_m"]["maximum"], 8.0, "{schema}");
         assert_eq!(schema["properties"]["shown"]["type"], "boolean", "{schema}");
+        assert_eq!(schema["properties"]["nickname"]["type"], "string", "{schema}");
         assert_eq!(schema["additionalProperties"], false, "{schema}");
     }
 }

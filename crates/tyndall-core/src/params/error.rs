@@ -31,6 +31,20 @@ pub enum ParamError {
         /// The value as the user wrote it.
         value: f64,
     },
+    /// A text that is too long or has characters that are not allowed.
+    #[error("`{name}`: {reason}")]
+    Text {
+        /// Name of the parameter.
+        name: &'static str,
+        /// What is wrong and what would be allowed.
+        reason: String,
+    },
+    /// A number for a parameter that is text.
+    #[error("`{name}` is a text, not a number")]
+    IsText {
+        /// Name of the parameter.
+        name: &'static str,
+    },
     /// The text cannot be a value of this parameter.
     #[error("`{name}` = {text:?} is not {expected}")]
     WrongKind {

@@ -56,11 +56,7 @@ impl ParamInfo {
     #[must_use]
     pub fn label(&self) -> String {
         let suffix = format!("_{}", self.unit.replace('/', "_").to_lowercase());
-        let name = self.name.strip_suffix(suffix.as_str()).unwrap_or(self.name);
-        let shown = |word: &str| if ACRONYMS.contains(&word) { word.to_uppercase() } else { word.to_owned() };
-        let words = name.split('_').map(shown).collect::<Vec<_>>().join(" ");
-        let mut letters = words.chars();
-        letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+        label_of(self.name.strip_suffix(suffix.as_str()).unwrap_or(self.name))
     }
 
     /// Checks kind and range.
@@ -137,4 +133,12 @@ impl ParamInfo {
     pub fn unit_suffix(&self) -> String {
         if self.unit == "1" { String::new() } else { format!(" {}", self.unit) }
     }
+}
+
+/// A parameter's name for people: words in place of underscores, the first with a capital.
+pub(super) fn label_of(name: &str) -> String {
+    let shown = |word: &str| if ACRONYMS.contains(&word) { word.to_uppercase() } else { word.to_owned() };
+    let words = name.split('_').map(shown).collect::<Vec<_>>().join(" ");
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }

@@ -3,7 +3,8 @@
 /// Declares a struct of parameters.
 ///
 /// Each line reads `/// doc` and then `name: type = default, ["unit", low..=high, Scale], "source";`. Toggles and choices
-/// leave the bracket out. Types are those of [`ParamType`](crate::params::ParamType).
+/// leave the bracket out. Types are those of [`ParamType`](crate::params::ParamType). Texts follow in a section of their own,
+/// `text { /// doc` and then `name = default, "source"; }`.
 ///
 /// ```
 /// use tyndall_core::{ParamSet, params};
@@ -16,11 +17,16 @@
 ///         /// Whether it is on.
 ///         on: bool = true, "Catalogue, p. 4";
 ///     }
+///     text {
+///         /// Where it stands.
+///         room = "kitchen", "Catalogue, p. 5";
+///     }
 /// }
 ///
 /// let mut lamp = Lamp::default();
 /// lamp.set_text("power_w", "60")?;
-/// assert_eq!(lamp, Lamp { power_w: 60.0, on: true });
+/// lamp.set_text("room", "hall")?;
+/// assert_eq!(lamp, Lamp { power_w: 60.0, on: true, room: "hall".to_owned() });
 /// assert_eq!(lamp.set("power_w", 9e9).unwrap_err().to_string(), "`power_w` = 9000000000 W is outside 0 to 2000 W");
 /// # Ok::<(), tyndall_core::ParamError>(())
 /// ```
@@ -29,7 +35,10 @@ macro_rules! params {
     ($(#[$meta:meta])* $visibility:vis struct $Set:ident { $(
         $(#[doc = $doc:literal])+
         $name:ident: $type:ty = $default:expr $(, [$unit:literal, $low:literal ..= $high:literal, $scale:ident])?, $source:literal;
-    )+ }) => {
+    )+ } $(text { $(
+        $(#[doc = $text_doc:literal])+
+        $text:ident = $text_default:literal, $text_source:literal;
+    )+ })?) => {
         $(#[$meta])*
         #[derive(Clone, Debug, PartialEq)]
         $visibility struct $Set { $(
@@ -39,11 +48,15 @@ macro_rules! params {
                 stringify!($high), "`.")?, " Source: ", $source, "."
             )]
             $visibility $name: $type,
-        )+ }
+        )+ $($(
+            $(#[doc = $text_doc])+
+            #[doc = concat!("\n\nDefault: `\"", $text_default, "\"`. Source: ", $text_source, ".")]
+            $visibility $text: String,
+        )+)? }
 
         impl Default for $Set {
             fn default() -> Self {
-                Self { $($name: $default),+ }
+                Self { $($name: $default,)+ $($($text: $text_default.to_owned(),)+)? }
             }
         }
 
@@ -79,6 +92,28 @@ macro_rules! params {
                 $(if name == stringify!($name) {
                     self.$name = $crate::params::ParamType::from_value(value);
                 })+
+            }
+
+            fn text_info(&self) -> &'static [$crate::params::TextInfo] {
+                static INFO: std::sync::LazyLock<Vec<$crate::params::TextInfo>> = std::sync::LazyLock::new(|| vec![$($(
+                    $crate::params::TextInfo {
+                        name: stringify!($text),
+                        default: $text_default,
+                        doc: concat!($($text_doc),+).trim(),
+                        source: $text_source,
+                    }
+                ),+)?]);
+                &INFO
+            }
+
+            fn text(&self, index: usize) -> &str {
+                let texts: &[&str] = &[$($(&self.$text),+)?];
+                texts[index]
+            }
+
+            fn put_text_unchecked(&mut self, index: usize, text: &str) {
+                let texts: &mut [&mut String] = &mut [$($(&mut self.$text),+)?];
+                text.clone_into(&mut *texts[index]);
             }
         }
     };

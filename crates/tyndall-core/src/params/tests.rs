@@ -29,6 +29,11 @@ params! {
         /// Outline.
         shape: Shape = Shape::Square, "Example";
     }
+    text {
+        /// Name of
+        /// a file.
+        source_file = "none.csv", "Example";
+    }
 }
 
 #[test]
@@ -41,8 +46,15 @@ fn every_default_is_an_allowed_value() {
 
 #[test]
 fn text_survives_the_way_through_format_and_parse() {
-    let mut thing =
-        Thing { elevation_deg: -0.125, utc_offset_h: 5.5, ozone_du: 0.0, cells: 1000, on: false, shape: Shape::Round };
+    let mut thing = Thing {
+        elevation_deg: -0.125,
+        utc_offset_h: 5.5,
+        ozone_du: 0.0,
+        cells: 1000,
+        on: false,
+        shape: Shape::Round,
+        ..Thing::default()
+    };
     assert_eq!(thing.shape.name(), "round");
     let texts: Vec<_> = thing.info().iter().enumerate().map(|(i, info)| info.format(thing.get(i))).collect();
     assert_eq!(texts, ["-0.125", "5.5", "0.0", "1000", "false", "round"]);
@@ -83,4 +95,20 @@ fn labels_drop_the_unit_and_docs_lose_their_line_breaks() {
     let labels: Vec<_> = thing.info().iter().map(super::ParamInfo::label).collect();
     assert_eq!(labels, ["Elevation", "UTC offset", "Ozone", "Cells", "On", "Shape"]);
     assert_eq!(thing.info()[0].doc, "Elevation above the horizon.");
+}
+
+#[test]
+fn texts_are_set_by_name_and_bad_ones_are_refused() {
+    let mut thing = Thing::default();
+    thing.set_text("source_file", "a folder/b=c.npz").unwrap();
+    assert_eq!((thing.source_file.as_str(), thing.text(0)), ("a folder/b=c.npz", "a folder/b=c.npz"));
+    let message = |result: Result<(), ParamError>| result.unwrap_err().to_string();
+    let refused = message(thing.set_text("source_file", "two\nlines"));
+    assert_eq!(refused, r"`source_file`: it has the control character '\n'; one line of text is allowed");
+    let refused = message(thing.set_text("source_file", &"x".repeat(5000)));
+    assert_eq!(refused, "`source_file`: it has 5000 bytes; 4096 are allowed");
+    assert_eq!(message(thing.set("source_file", 1.0)), "`source_file` is a text, not a number");
+    assert_eq!(thing.source_file, "a folder/b=c.npz", "a refused text changes nothing");
+    let info = &thing.text_info()[0];
+    assert_eq!((info.label().as_str(), info.doc, info.default), ("Source file", "Name of a file.", "none.csv"));
 }

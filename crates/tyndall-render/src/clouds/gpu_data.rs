@@ -48,10 +48,10 @@ pub struct CloudShadow {
 }
 
 impl Clouds {
-    /// From how clouds are drawn, what they consist of, and the extinction deep in them (1/m).
+    /// From how clouds are drawn and what they consist of.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
-    pub fn new(drawn: &CloudsParams, matter: &CloudMatter, full_per_m: f64) -> Self {
+    pub fn new(drawn: &CloudsParams, matter: &CloudMatter) -> Self {
         let [west, south, floor_m] = matter.low_corner_m;
         Self {
             size: matter.extinction_per_m.size().map(|cells| cells as f32),
@@ -62,7 +62,7 @@ impl Clouds {
             floor_m: floor_m as f32,
             ceiling_m: (floor_m + matter.extent_m()[2]) as f32,
             reach_m: (1e3 * drawn.reach_km) as f32,
-            full_per_m: full_per_m as f32,
+            full_per_m: matter.full_per_m as f32,
             wraps: u32::from(matter.edges == Edges::Wrap),
             all_orders: u32::from(drawn.orders == Orders::All),
             detail: drawn.detail as f32,

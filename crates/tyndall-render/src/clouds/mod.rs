@@ -8,6 +8,7 @@
 //! A wrapped grid repeats to the horizon. What clouds leave of the light is kept as data ([`CloudRenderer::shadow_bindings`]).
 
 mod building;
+pub mod file;
 pub mod gpu_data;
 mod report;
 mod shadow;
@@ -134,7 +135,7 @@ impl CloudRenderer {
         };
         let Some(shown) = self.volume.update(gpu, &VolumeRequest { source, light })? else { return Ok(None) };
         let textures = &shown.textures;
-        let uniform = Clouds::new(&scene.clouds, &shown.matter, scene.cloud_matter.extinction_per_m);
+        let uniform = Clouds::new(&scene.clouds, &shown.matter);
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         self.shadow.update(gpu, Some(&textures.shadow.1));
         let behind = copy_of_frame(gpu, &mut self.behind, target)?;

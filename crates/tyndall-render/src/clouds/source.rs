@@ -1,28 +1,64 @@
 //! Where the clouds of a scene come from, and what they consist of at a moment.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use tyndall_clouds::{CloudMatter, CloudParams, CloudSimulation, state_step};
 use tyndall_core::array::NamedArrays;
-use tyndall_scene::Scene;
+use tyndall_io::IoError;
+use tyndall_scene::{CloudKind, Scene};
 
+use super::file::CloudFileRequest;
 use crate::RenderError;
+
+/// Why clouds could not be taken from a file.
+#[derive(Debug, thiserror::Error)]
+pub enum CloudFileError {
+    /// No file was named.
+    #[error(
+        "clouds.kind is file, and clouds.file is empty; name a grid (.npz, .npy) or a list of metaballs (.csv, .json)"
+    )]
+    Unnamed,
+    /// The file cannot be read; the message names it.
+    #[error(transparent)]
+    Io(Box<IoError>),
+    /// The file has something that cannot be drawn.
+    #[error("{}: {problem}", .path.display())]
+    Refused {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
 
 /// What the matter of clouds follows from.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CloudSourceRequest {
-    /// The simulation.
-    pub params: CloudParams,
-    /// Time since the end of the warm-up (s).
-    pub time_s: f64,
+pub enum CloudSourceRequest {
+    /// The automaton.
+    Automaton {
+        /// The simulation.
+        params: Box<CloudParams>,
+        /// Time since the end of the warm-up (s).
+        time_s: f64,
+    },
+    /// A file.
+    File(Box<CloudFileRequest>),
 }
 
 impl CloudSourceRequest {
     /// Of a scene; `None` without clouds.
     #[must_use]
     pub fn of(scene: &Scene) -> Option<Self> {
-        scene.cloud_params().map(|params| Self { params, time_s: scene.clouds.time_s })
+        match scene.clouds.kind {
+            CloudKind::None => None,
+            CloudKind::Automaton => {
+                let params = Box::new(scene.cloud_params()?);
+                Some(Self::Automaton { params, time_s: scene.clouds.time_s })
+            }
+            CloudKind::File => Some(Self::File(Box::new(CloudFileRequest::of(scene)))),
+        }
     }
 }
 
@@ -44,7 +80,7 @@ impl CloudSource {
     /// The matter that was asked for: the same `Arc` as last time when nothing has changed.
     ///
     /// # Errors
-    /// When the parameters of the clouds do not fit together.
+    /// When the parameters of the clouds do not fit together, or their file cannot be read.
     pub fn matter(&mut self, request: &CloudSourceRequest) -> Result<Arc<CloudMatter>, RenderError> {
         loop {
             if let Some(matter) = self.matter_unless(request, &|| false)? {
@@ -66,7 +102,14 @@ impl CloudSource {
         if let Some((_, matter)) = self.last.as_ref().filter(|(last, _)| last == request) {
             return Ok(Some(Arc::clone(matter)));
         }
-        let matter = self.simulate(request, is_stale)?.map(Arc::new);
+        let matter = match request {
+            CloudSourceRequest::Automaton { params, time_s } => self.simulate(params, *time_s, is_stale)?,
+            CloudSourceRequest::File(file) => {
+                self.simulation = None;
+                Some(file.read()?)
+            }
+        };
+        let matter = matter.map(Arc::new);
         self.last = matter.clone().map(|matter| (request.clone(), matter));
         Ok(matter)
     }
@@ -86,12 +129,12 @@ impl CloudSource {
     /// The automaton's clouds; it goes on from where it stands when that is not too far.
     fn simulate(
         &mut self,
-        request: &CloudSourceRequest,
+        params: &CloudParams,
+        time_s: f64,
         is_stale: &dyn Fn() -> bool,
     ) -> Result<Option<CloudMatter>, RenderError> {
-        let CloudSourceRequest { params, time_s } = request;
         let earlier = self.simulation.take().filter(|known| known.params() == params);
-        let (steps, fraction) = params.moment(*time_s);
+        let (steps, fraction) = params.moment(time_s);
         let first = self.start.as_ref().map_or(Ok(params.grid.warm_up_steps), state_step)?;
         let wanted = first.saturating_add(steps);
         let mut simulation = match (earlier.filter(|known| known.automaton().step_count() <= wanted), &self.start) {
@@ -128,15 +171,13 @@ mod tests {
         let mut params = CloudParams::default();
         (params.grid.cells_east, params.grid.cells_north, params.grid.cells_up) = (32, 32, 12);
         params.grid.warm_up_steps = 12;
-        let mut request = CloudSourceRequest { params, time_s: 0.0 };
+        let at = |time_s| CloudSourceRequest::Automaton { params: Box::new(params.clone()), time_s };
         let mut source = CloudSource::default();
-        let first = source.matter(&request).unwrap();
-        assert!(Arc::ptr_eq(&first, &source.matter(&request).unwrap()), "nothing is computed twice");
-        request.time_s = 30.0;
-        let later = source.matter(&request).unwrap();
+        let first = source.matter(&at(0.0)).unwrap();
+        assert!(Arc::ptr_eq(&first, &source.matter(&at(0.0)).unwrap()), "nothing is computed twice");
+        let later = source.matter(&at(30.0)).unwrap();
         assert_ne!(first.extinction_per_m, later.extinction_per_m, "a step and a half later");
-        request.time_s = 0.0;
-        assert_eq!(first, source.matter(&request).unwrap(), "and back again");
+        assert_eq!(first, source.matter(&at(0.0)).unwrap(), "and back again");
     }
 
     #[test]
@@ -144,13 +185,14 @@ mod tests {
         let mut params = CloudParams::default();
         (params.grid.cells_east, params.grid.cells_north, params.grid.cells_up) = (32, 32, 12);
         params.grid.warm_up_steps = 12;
-        let later = CloudSourceRequest { params: params.clone(), time_s: 50.0 };
+        let at = |time_s| CloudSourceRequest::Automaton { params: Box::new(params.clone()), time_s };
+        let later = at(50.0);
         let expected = CloudSource::default().matter(&later).unwrap();
         let mut half_way = CloudSimulation::new(&params).unwrap();
         half_way.advance(1);
         let mut source = CloudSource::default();
         source.start_from(Some(half_way.state()));
-        let rest = CloudSourceRequest { time_s: 30.0, ..later };
+        let rest = at(30.0);
         assert_eq!(source.matter(&rest).unwrap(), expected, "a step of 20 s and 30 s are 50 s");
     }
 }

@@ -7,7 +7,7 @@ mod write;
 use std::{
     fs::{self, File},
     io::{self, Read as _, Write as _},
-    path::Path,
+    path::{Path, PathBuf},
 };
 
 use atomic_write_file::AtomicWriteFile;
@@ -66,7 +66,11 @@ impl SceneFile {
         let bytes = read_bytes(path)?;
         let name = path.display().to_string();
         match String::from_utf8(bytes) {
-            Ok(text) => Self::parse(&name, &text),
+            Ok(text) => {
+                let mut file = Self::parse(&name, &text)?;
+                file.scene.folder = folder_of(path);
+                Ok(file)
+            }
             Err(error) => {
                 let start = error.utf8_error().valid_up_to();
                 let text = String::from_utf8_lossy(error.as_bytes());
@@ -102,16 +106,24 @@ impl SceneFile {
         if self.byte_order_mark { format!("\u{feff}{text}") } else { text }
     }
 
-    /// Writes the file: all of it or, when anything fails, nothing. A link is followed to the file that it names.
+    /// Writes the file: all of it or, when anything fails, nothing. A link is followed to the file that it names. In another
+    /// folder than the scene's, relative paths in the scene are written such that they still name the same files.
     ///
     /// # Errors
     /// When a value of the scene is not allowed, as the file could not be read again, or the file cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SceneError> {
         self.scene.check()?;
         let path = path.as_ref();
-        write_bytes(path, self.to_text().as_bytes())
+        let mut moved = self.clone();
+        moved.scene.move_to(&folder_of(path));
+        write_bytes(path, moved.to_text().as_bytes())
             .map_err(|source| SceneError::Write { path: path.to_owned(), source })
     }
+}
+
+/// Folder of a file; empty for one where the program runs.
+fn folder_of(path: &Path) -> PathBuf {
+    path.parent().map(Path::to_owned).unwrap_or_default()
 }
 
 fn has_only_crlf(text: &str) -> bool {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use toml_edit::{Document, Item, TableLike, Value};
-use tyndall_core::{ParamError, ParamInfo, ParamKind, ParamSet};
+use tyndall_core::{ParamError, ParamInfo, ParamKind, ParamSet, TextInfo};
 
 use super::FORMAT;
 use crate::{Scene, SceneError, brief::brief};
@@ -75,6 +75,12 @@ fn read_group(document: &Document<&str>, scene: &mut Scene, group: &str, item: &
         return Err(wrong_type(document, group.to_owned(), item, "a table of parameters".to_owned()));
     };
     for (name, item) in table.iter() {
+        if let Some(index) = scene.groups()[position].1.text_position(name) {
+            let (group, set) = &mut scene.groups_mut()[position];
+            let text = text_parameter(document, group, *set, index, item)?;
+            set.put_text_unchecked(index, &text);
+            continue;
+        }
         let Ok(index) = scene.groups()[position].1.position(name) else {
             return Err((scene.unknown_parameter(group, name), key_span(table, name)));
         };
@@ -97,6 +103,21 @@ fn parameter(
         return Err(wrong_type(document, format!("{group}.{}", info.name), item, info.expected()));
     };
     value.map_err(|source| (SceneError::Value { group, source }, span(document, info.name, item)))
+}
+
+fn text_parameter(
+    document: &Document<&str>,
+    group: &'static str,
+    set: &dyn ParamSet,
+    index: usize,
+    item: &Item,
+) -> Result<String, Problem> {
+    let info = &set.text_info()[index];
+    let Some(text) = text_of(item) else {
+        return Err(wrong_type(document, format!("{group}.{}", info.name), item, TextInfo::EXPECTED.to_owned()));
+    };
+    let checked = info.check(&text).map(str::to_owned);
+    checked.map_err(|source| (SceneError::Value { group, source }, span(document, info.name, item)))
 }
 
 fn wrong_type(document: &Document<&str>, path: String, item: &Item, expected: String) -> Problem {

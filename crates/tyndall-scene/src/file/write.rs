@@ -1,7 +1,7 @@
 //! From the scene back to the document, changing as little as possible.
 
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
-use tyndall_core::{ParamInfo, ParamKind};
+use tyndall_core::{ParamInfo, ParamKind, TextInfo};
 
 use super::read::{DESCRIPTION_KEY, TITLE_KEY, text_of, value_of};
 use crate::Scene;
@@ -18,7 +18,9 @@ pub(super) fn update(document: &mut DocumentMut, scene: &Scene) {
         let now = set.info().iter().enumerate().map(|(index, info)| (info, set.get(index)));
         let changed: Vec<_> =
             now.filter(|(info, value)| written_value(written, info).total_cmp(value).is_ne()).collect();
-        if changed.is_empty() {
+        let texts = set.text_info().iter().enumerate().map(|(index, info)| (info, set.text(index)));
+        let changed_texts: Vec<_> = texts.filter(|(info, text)| written_text(written, info) != *text).collect();
+        if changed.is_empty() && changed_texts.is_empty() {
             continue;
         }
         if document.get(group).is_none() {
@@ -29,6 +31,9 @@ pub(super) fn update(document: &mut DocumentMut, scene: &Scene) {
         let table = table.expect("reading has refused a document in which a group is not a table");
         for (info, value) in changed {
             put(table, info.name, to_toml(info, value));
+        }
+        for (info, text) in changed_texts {
+            put(table, info.name, Value::from(text));
         }
     }
 }
@@ -47,6 +52,11 @@ fn new_table(document: &mut DocumentMut) -> Table {
 fn written_value(table: Option<&dyn TableLike>, info: &ParamInfo) -> f64 {
     let value = table.and_then(|table| table.get(info.name)).and_then(Item::as_value);
     value.and_then(|value| value_of(info, value)).and_then(Result::ok).unwrap_or(info.default)
+}
+
+/// Text that a reader of the document takes: the one written, or the default.
+fn written_text(table: Option<&dyn TableLike>, info: &TextInfo) -> String {
+    table.and_then(|table| table.get(info.name)).and_then(text_of).unwrap_or_else(|| info.default.to_owned())
 }
 
 /// Sets a key; a value that was there hands its comment and its spacing on.

@@ -11,6 +11,18 @@ choices! {
         None = "none",
         /// A cellular automaton on a grid: see the groups that begin with cloud.
         Automaton = "automaton",
+        /// A grid or a list of metaballs: see `clouds.file`.
+        File = "file",
+    }
+}
+
+choices! {
+    /// What the numbers of a grid in a file are.
+    pub enum CloudFileHolds {
+        /// How dense the cloud is in the middle of each cell.
+        Density = "density",
+        /// How dense the metaball of each cell is: the cloud is their sum.
+        Balls = "balls",
     }
 }
 
@@ -33,6 +45,24 @@ params! {
         forward_weight: f64 = 0.94, ["1", 0.0..=1.0, Linear], "two-term Henyey-Greenstein";
         /// How deep turbulence finer than a cell cuts into the edges of clouds; 0 leaves them smooth.
         detail: f64 = 0.6, ["1", 0.0..=1.0, Linear], "Schneider and Vos 2015";
+        /// What the numbers of a grid in a file are: the cloud itself, or the metaballs that add up to it, of the radius in
+        /// `cloud_matter`. Used when kind is file.
+        file_holds: CloudFileHolds = CloudFileHolds::Density, "paper eq. (3)";
+        /// Where in its cell the metaball of a file's grid stands, along each axis; 0.5 is the middle. Used when the file holds
+        /// balls.
+        file_ball_place: f64 = 0.5, ["1", 0.0..=1.0, Linear], "scene convention";
+        /// Samples of the cloud along each side of a cell of a file's grid. Raise it when the cells of balls show. Used when
+        /// the file holds balls.
+        file_samples: u32 = 1, ["1", 1..=4, Linear], "design";
+    }
+    text {
+        /// The file that the clouds come from, relative to the scene's file: a grid (.npy, .npz) of bytes, 16-bit numbers (both
+        /// as shares of their largest) or floats with the axes east, north, up, or a list of metaballs (.csv, .json) in metres
+        /// east and north of the origin and altitudes. A grid is centred on the scene's origin; the cells' side, the floor and
+        /// the edges are those of `cloud_grid`, and 1 stands for the extinction in `cloud_matter`. Used when kind is file.
+        file = "", "design";
+        /// Name of the grid in an .npz file; empty for the only one with three dimensions. Used when kind is file.
+        array = "", "design";
     }
 }
 
