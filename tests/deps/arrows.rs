@@ -15,10 +15,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tyndall-io", &["tyndall-core"]),
     ("tyndall-scene", &["tyndall-core", "tyndall-scattering", "tyndall-clouds", "tyndall-assets"]),
     ("tyndall-gpu", &["tyndall-shaders", "tyndall-core"]),
+    ("tyndall-gpu-sim", &["tyndall-gpu", "tyndall-dunes"]),
     ("tyndall-render", &["tyndall-gpu", "tyndall-scene", "tyndall-io"]),
     ("tyndall-cli", &["tyndall-render", "tyndall-io"]),
     ("tyndall-app", &["tyndall-render", "tyndall-io"]),
-    ("tyndall", &["tyndall-render", "tyndall-io", "tyndall-dunes"]),
+    ("tyndall", &["tyndall-render", "tyndall-io", "tyndall-gpu-sim"]),
     ("xtask", &[]),
 ];
 

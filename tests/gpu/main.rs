@@ -8,6 +8,7 @@ mod loss;
 mod memory;
 mod readback;
 mod rendering;
+mod sand;
 mod shader_errors;
 mod shader_functions;
 mod timings;

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use naga::{AddressSpace, Handle, Type, TypeInner};
 use tyndall_gpu::layout::StructLayout;
 use tyndall_gpu::rust_layout;
+use tyndall_gpu_sim::gpu_data::{Dunes, Ripples, Sand, SandPass};
 use tyndall_render::aerial::gpu_data::Aerial;
 use tyndall_render::clouds::gpu_data::{CloudShadow, Clouds};
 use tyndall_render::frame::gpu_data::Frame;
@@ -76,12 +77,16 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
         ("Aerial", rust_layout!(Aerial { columns, rows, far_m, unit })),
         clouds(),
         cloud_shadow(),
+        dunes(),
         landscape(),
         orders(),
         ("SkyLight", rust_layout!(SkyLight { lowest_mu_sun, highest_mu_sun, top_altitude_m, lux })),
         ("Airglow", rust_layout!(Airglow { zenith, bottom_m, top_m, padding0, padding1 })),
         moon(),
         stars(),
+        ("Sand", rust_layout!(Sand { size, wind, keys, fall, open, stamp, padding })),
+        ("SandPass", rust_layout!(SandPass { axis, first, last, stride, number, padding0, padding1 })),
+        ripples(),
         ("Refraction", rust_layout!(Refraction { lift, horizon_elevation, padding0, padding1, padding2 })),
         sky_view(),
     ]
@@ -152,6 +157,47 @@ fn cloud_shadow() -> (&'static str, StructLayout) {
             wraps,
             mean,
             padding,
+        }),
+    )
+}
+
+/// Twin of `Dunes`.
+fn dunes() -> (&'static str, StructLayout) {
+    (
+        "Dunes",
+        rust_layout!(Dunes {
+            repose,
+            rest,
+            plant_repose,
+            slab,
+            lift_256,
+            hop_256,
+            speed_up_256,
+            drop_on_sand_4096,
+            drop_on_bare_4096,
+            inflow_65536,
+            wear_65536,
+            growth,
+            best_burial,
+            tolerance,
+            padding,
+        }),
+    )
+}
+
+/// Twin of `Ripples`.
+fn ripples() -> (&'static str, StructLayout) {
+    (
+        "Ripples",
+        rust_layout!(Ripples {
+            hop_256,
+            hop_per_height_256,
+            layer,
+            creep_side,
+            creep_corner,
+            creep_limit,
+            dither,
+            bedrock,
         }),
     )
 }

@@ -54,6 +54,7 @@ macro_rules! twins {
     };
 }
 
+mod grain;
 mod lattice;
 mod noise;
 mod phase;
@@ -62,7 +63,8 @@ mod sphere;
 mod tone;
 
 /// The tables of all files.
-const TABLES: &[&[Row]] = &[lattice::ROWS, noise::ROWS, phase::ROWS, spectrum::ROWS, sphere::ROWS, tone::ROWS];
+const TABLES: &[&[Row]] =
+    &[grain::ROWS, lattice::ROWS, noise::ROWS, phase::ROWS, spectrum::ROWS, sphere::ROWS, tone::ROWS];
 
 /// Shared functions that no row compares, and rows that compare no shared function.
 fn gaps(files: &[(&str, &str)], rows: &[&Row]) -> Vec<String> {

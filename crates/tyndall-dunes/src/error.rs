@@ -68,6 +68,16 @@ pub enum DuneError {
         /// What is wrong and what is allowed.
         message: String,
     },
+    /// Plants grow either in a state or in the field that is to go on from it.
+    #[error(
+        "plants grow in the {} but not in the {}; set the same vegetation first",
+        if *in_field { "field" } else { "state" },
+        if *in_field { "state" } else { "field" }
+    )]
+    Plants {
+        /// Whether it is the field that has them.
+        in_field: bool,
+    },
     /// A wind schedule needs at least one wind that blows.
     #[error("the wind schedule has no wind that blows; at least one needs a share above 0")]
     NoWind,

@@ -47,4 +47,4 @@ pub use error::DuneError;
 pub use lattice::Lattice;
 pub use ledger::Ledger;
 pub use side::Side;
-pub use simulation::{SandSimulation, StateHash};
+pub use simulation::{SandDevice, SandSimulation, StateHash};

@@ -98,7 +98,8 @@ impl pulp::NullaryFnOnce for Band<'_> {
             out.fill(NO_LINE);
             for tap in self.taps {
                 let from = (self.first_row + row) as i32 - tap.offset[1];
-                if !periodic && !(0..ny as i32).contains(&from) {
+                let past_rows = tap.offset[0].unsigned_abs() as usize >= nx;
+                if !periodic && (past_rows || !(0..ny as i32).contains(&from)) {
                     continue;
                 }
                 let source = &self.source[self.lattice.index(0, from)..][..nx];
@@ -162,6 +163,20 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn on_a_narrow_open_bed_no_line_comes_back_over_the_far_edge() {
+        let lattice = Lattice::new([16, 256]).unwrap();
+        let mut bed = vec![0; lattice.cells()];
+        bed[lattice.index(4, 10)] = 100_000;
+        let wind = Direction::from_degrees(60.0);
+        let mut line = ShadowLine::new(lattice);
+        line.cast(&bed, wind, 50, 256, Edges::Open);
+        // The line leaves over the right edge, 12 columns on, within 12 tan 60 = 21 rows.
+        let dark = (0..lattice.cells()).filter(|&index| line.heights()[index] > bed[index]);
+        let rows: Vec<usize> = dark.map(|index| lattice.position(index)[1]).collect();
+        assert!(rows.iter().all(|row| (10..=34).contains(row)) && rows.len() >= 12, "rows in the shadow: {rows:?}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What every automaton of this crate offers, on the CPU and, later, on the GPU.
+//! What every automaton of this crate offers, in main memory and on a device.
 
 use crate::lattice::Lattice;
 
@@ -25,6 +25,39 @@ pub trait SandSimulation {
             self.step();
         }
     }
+}
+
+/// An automaton whose sand lies on a device, where work can fail and every look at the sand is a transfer. Its steps
+/// give the bits of its host's.
+pub trait SandDevice: Sized {
+    /// The same automaton in main memory; whatever is asked of the sand is asked of it.
+    type Host: SandSimulation;
+    /// What can go wrong.
+    type Error: std::error::Error;
+
+    /// Size of the bed.
+    fn lattice(&self) -> Lattice;
+
+    /// Steps since the start, those under way included.
+    fn steps_done(&self) -> u32;
+
+    /// Starts several steps; they may still be under way when this returns.
+    ///
+    /// # Errors
+    /// When the device refuses them or is lost.
+    fn run(&mut self, steps: u32) -> Result<(), Self::Error>;
+
+    /// The automaton as it is after all steps, which are waited for.
+    ///
+    /// # Errors
+    /// When the device is lost or its memory cannot be read.
+    fn read(&self) -> Result<Self::Host, Self::Error>;
+
+    /// Goes on from there, with its rule and winds.
+    ///
+    /// # Errors
+    /// When the device cannot do what this automaton does, or refuses its size.
+    fn write(&mut self, host: &Self::Host) -> Result<(), Self::Error>;
 }
 
 /// Makes the hash of a state: 64-bit FNV-1a over little-endian words of 32 bits, sizes and step first.

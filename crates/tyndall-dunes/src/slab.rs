@@ -11,6 +11,8 @@ mod params;
 mod plants;
 mod rock;
 mod rule;
+mod state;
+mod streams;
 mod surface;
 mod surroundings;
 mod transport;
@@ -18,6 +20,11 @@ mod transport;
 pub use field::DuneField;
 pub use onoue_nishita2000::ClassicRule;
 pub use params::{AbrasionParams, ClassicParams, DuneModel, DuneParams, VegetationParams};
+pub use plants::PlantRule;
+pub use rock::Rock;
 pub use rule::{
     CATCH_REACH_CELLS, DUNE_QUANTA_PER_CELL, DuneRule, MAX_HEIGHT_CELLS, MAX_HOPS, SHADOW_REACH_CELLS, SLOW_STEPS,
 };
+pub use state::{DuneState, PlantState};
+pub use streams::DuneKeys;
+pub use surroundings::SURROUNDINGS_CELLS;

@@ -28,6 +28,7 @@ pub use tyndall_clouds as clouds;
 pub use tyndall_core as core;
 pub use tyndall_dunes as dunes;
 pub use tyndall_gpu as gpu;
+pub use tyndall_gpu_sim as gpu_sim;
 pub use tyndall_io as io;
 pub use tyndall_render as render;
 pub use tyndall_scattering as scattering;

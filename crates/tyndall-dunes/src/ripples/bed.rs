@@ -68,6 +68,16 @@ impl RippleBed {
         self.wind = Direction::from_degrees(angle_deg);
     }
 
+    /// Where the wind blows to.
+    pub fn wind(&self) -> Direction {
+        self.wind
+    }
+
+    /// Keys of the dithering of hops along x and along y in a step; the second counts under winds across the rows only.
+    pub fn hop_keys(&self, step: u32) -> [u32; 2] {
+        [HOP_STREAM, HOP_STREAM_Y].map(|stream| step_key(self.seed, step, stream))
+    }
+
     /// The rule in integers.
     pub fn rule(&self) -> &RippleRule {
         &self.rule
@@ -95,6 +105,16 @@ impl RippleBed {
         Ok(())
     }
 
+    /// Goes on from these heights (quanta) as after so many steps.
+    ///
+    /// # Errors
+    /// As [`RippleBed::set_heights`]; then nothing changes.
+    pub fn set_state(&mut self, heights: &[i32], step: u32) -> Result<(), DuneError> {
+        self.set_heights(heights)?;
+        self.step = step;
+        Ok(())
+    }
+
     /// Heights over the mean bed (cells).
     pub fn heights_cells(&self) -> Vec<f32> {
         self.heights.iter().map(|&height| height as f32 / RIPPLE_QUANTA_PER_CELL as f32).collect()
@@ -102,7 +122,7 @@ impl RippleBed {
 
     fn step_along_rows(&mut self) {
         let (nx, ny) = (self.lattice.nx(), self.lattice.ny());
-        let key = step_key(self.seed, self.step, HOP_STREAM);
+        let [key, _] = self.hop_keys(self.step);
         // Two rows of each band are computed twice, so bands are as high as the number of threads allows.
         let bands = rayon::current_num_threads().min(ny / 8).max(1);
         let rows = ny.div_ceil(bands);
@@ -126,7 +146,7 @@ impl SandSimulation for RippleBed {
         if self.wind == Direction::EAST {
             self.step_along_rows();
         } else {
-            let keys = [HOP_STREAM, HOP_STREAM_Y].map(|stream| step_key(self.seed, self.step, stream));
+            let keys = self.hop_keys(self.step);
             any_direction::step(&self.rule, keys, self.wind, self.lattice, &self.heights, &mut self.next);
         }
         std::mem::swap(&mut self.heights, &mut self.next);

@@ -5,9 +5,10 @@ use rayon::prelude::*;
 use super::avalanche::{Avalanche, Slope};
 use super::onoue_nishita2000::{ClassicRule, creep_sand, move_layers};
 use super::params::{AbrasionParams, ClassicParams, DuneModel, DuneParams, VegetationParams};
-use super::plants::Plants;
+use super::plants::{PlantRule, Plants};
 use super::rock::Rock;
 use super::rule::{DUNE_QUANTA_PER_CELL, DuneRule, MAX_HEIGHT_CELLS, SHADOW_REACH_CELLS, SLOW_STEPS, fixed};
+use super::streams::{DuneKeys, NOISE_STREAM};
 use super::surface::Surface;
 use super::surroundings::mean_heights;
 use super::transport::{Wind, move_slabs};
@@ -22,14 +23,6 @@ use crate::shadow::ShadowLine;
 use crate::simulation::{SandSimulation, StateHash};
 use crate::wind::WindSchedule;
 
-/// Streams of random words.
-const LIFT_STREAM: u32 = 0;
-const INFLOW_STREAM: u32 = 1;
-const SLIDE_STREAM: u32 = 2;
-const NOISE_STREAM: u32 = 3;
-const ABRASION_STREAM: u32 = 4;
-/// Stream of the seedlings at the start.
-pub(crate) const PLANT_STREAM: u32 = 5;
 /// Passes of [`DuneField::settle`] before it gives up: far more than a field has ever needed.
 const MOST_SETTLING_PASSES: u32 = 100_000;
 
@@ -45,17 +38,17 @@ pub struct DuneField {
     edges: Edges,
     seed: u32,
     winds: WindSchedule,
-    step: u32,
+    pub(super) step: u32,
     /// Bed: sand and what lies under it.
     pub(crate) heights: Vec<i32>,
     /// What lies under the sand.
     pub(crate) bedrock: Vec<i32>,
     pub(crate) walls: Option<Vec<u8>>,
-    plants: Option<Plants>,
+    pub(super) plants: Option<Plants>,
     rock: Option<Rock>,
     pub(crate) ledger: Ledger,
     // Working memory; nothing of it is part of the state but `means`.
-    means: Vec<i32>,
+    pub(super) means: Vec<i32>,
     shadow: ShadowLine,
     surface: Surface,
     change: Vec<i32>,
@@ -222,6 +215,31 @@ impl DuneField {
         self.plants.as_ref().map(|plants| plants.cover.as_slice())
     }
 
+    /// How plants grow and hold sand, if they do.
+    pub fn plant_rule(&self) -> Option<&PlantRule> {
+        self.plants.as_ref().map(|plants| &plants.rule)
+    }
+
+    /// Cells that no slab enters (not 0), if there are any.
+    pub fn walls(&self) -> Option<&[u8]> {
+        self.walls.as_deref()
+    }
+
+    /// How bedrock wears, if it does.
+    pub fn rock(&self) -> Option<&Rock> {
+        self.rock.as_ref()
+    }
+
+    /// Whether slabs move, or the layers of the classic rule.
+    pub fn model(&self) -> DuneModel {
+        if self.classic.is_some() { DuneModel::Classic } else { DuneModel::Slab }
+    }
+
+    /// Keys of the random words of a step.
+    pub fn keys(&self, step: u32) -> DuneKeys {
+        DuneKeys::new(self.seed, step)
+    }
+
     /// Where the sand came from and went to.
     pub fn ledger(&self) -> Ledger {
         self.ledger
@@ -239,8 +257,7 @@ impl DuneField {
 
     /// Slides until no slope is steeper than repose; gives back the number of passes. Steps slide a few passes only.
     pub fn settle(&mut self) -> u32 {
-        let key = step_key(self.seed, self.step, SLIDE_STREAM);
-        self.slide(key, MOST_SETTLING_PASSES)
+        self.slide(self.keys(self.step).slide, MOST_SETTLING_PASSES)
     }
 
     /// Casts the wind's shadow and sorts cells by it.
@@ -258,7 +275,7 @@ impl DuneField {
     }
 
     fn blow(&mut self, direction: Direction) {
-        let key = |stream: u32| step_key(self.seed, self.step, stream);
+        let keys = self.keys(self.step);
         let wind = Wind {
             rule: &self.rule,
             lattice: self.lattice,
@@ -270,8 +287,8 @@ impl DuneField {
             surface: &self.surface,
             plants: self.plants.as_ref(),
             walls: self.walls.as_deref(),
-            key: key(LIFT_STREAM),
-            inflow_key: key(INFLOW_STREAM),
+            key: keys.lift,
+            inflow_key: keys.inflow,
         };
         match &self.classic {
             None => move_slabs(&wind, &mut self.bands, &mut self.change),
@@ -301,7 +318,7 @@ impl DuneField {
 
     fn wear_rock(&mut self) {
         if let Some(rock) = &self.rock {
-            let key = step_key(self.seed, self.step, ABRASION_STREAM);
+            let key = self.keys(self.step).abrasion;
             let cover = self.plants.as_ref().map(|plants| plants.cover.as_slice());
             self.ledger.abraded += rock.wear(key, &self.heights, &self.surface.kinds, cover, &mut self.bedrock);
         }
@@ -358,8 +375,7 @@ impl SandSimulation for DuneField {
         self.shade(direction);
         self.blow(direction);
         self.wear_rock();
-        let key = step_key(self.seed, self.step, SLIDE_STREAM);
-        self.slide(key, self.rule.slide_passes);
+        self.slide(self.keys(self.step).slide, self.rule.slide_passes);
         self.step = self.step.wrapping_add(1);
     }
 

@@ -10,13 +10,13 @@ use crate::error::check_params;
 use crate::hash::cell_word;
 use crate::lattice::Lattice;
 
-/// How bedrock wears.
-#[derive(Clone, Debug)]
-pub(super) struct Rock {
+/// How bedrock wears, as integers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rock {
     /// Chance to lose a quantum in a step (1/65536) when soft.
-    rate: u32,
+    pub rate_65536: u32,
     /// Hardness of each cell: 255 is not worn.
-    hardness: Vec<u8>,
+    pub hardness: Vec<u8>,
 }
 
 impl Rock {
@@ -26,7 +26,10 @@ impl Rock {
             lattice.check_grid("the map of hardness", map.len())?;
         }
         let even = || vec![fixed(params.hardness, 255.0) as u8; lattice.cells()];
-        Ok(Self { rate: fixed(params.rate, 65536.0).cast_unsigned(), hardness: map.map_or_else(even, <[u8]>::to_vec) })
+        Ok(Self {
+            rate_65536: fixed(params.rate, 65536.0).cast_unsigned(),
+            hardness: map.map_or_else(even, <[u8]>::to_vec),
+        })
     }
 
     /// Wears bare rock in the wind; gives back the quanta that became sand. The bed's height stays: rock turns to sand.
@@ -38,7 +41,7 @@ impl Rock {
             }
             let plants = cover.map_or(0, |cover| u32::from(cover[index]));
             let softness = 255 - u32::from(self.hardness[index]);
-            let chance = (self.rate * softness / 255) * (255 - plants) / 255;
+            let chance = (self.rate_65536 * softness / 255) * (255 - plants) / 255;
             let worn = i32::from(cell_word(key, index as u32) >> 16 < chance);
             *rock -= worn;
             i64::from(worn)

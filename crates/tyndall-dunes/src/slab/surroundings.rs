@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use crate::edges::Edges;
 use crate::lattice::Lattice;
 
-/// Side of the square of the mean (cells).
-const WINDOW: usize = 64;
+/// Side of the square around a cell over which heights are averaged (cells), or the bed's side where that is less.
+pub const SURROUNDINGS_CELLS: usize = 64;
 
 /// Mean heights by two passes of running sums; integers, so no order of adding matters.
 pub(super) fn mean_heights(lattice: Lattice, edges: Edges, heights: &[i32], means: &mut [i32]) {
@@ -37,7 +37,7 @@ pub(super) fn mean_heights(lattice: Lattice, edges: Edges, heights: &[i32], mean
 
 /// Means over the window around each of `count` values, rounded down.
 fn running_mean(edges: Edges, count: usize, value: impl Fn(usize) -> i32, mut put: impl FnMut(usize, i32)) {
-    let window = WINDOW.min(count) as isize;
+    let window = SURROUNDINGS_CELLS.min(count) as isize;
     let last = count as isize - 1;
     let at = |index: isize| match edges {
         Edges::Periodic => value((index & last).cast_unsigned()),
