@@ -18,6 +18,8 @@ pub(crate) const RULE: &str = "clouds, rule, 2.1 Mcell";
 pub(crate) const STEP: &str = "clouds, full step, 2.1 Mcell";
 /// Name of [`frame`].
 pub(crate) const FRAME: &str = "clouds, a frame's data, 2.1 Mcell";
+/// Name of [`large`].
+pub(crate) const LARGE: &str = "clouds, 1024 x 1024 x 64";
 
 /// Steps of one time: a single one is shorter than what a clock is good for.
 const STEPS: usize = 20;
@@ -28,14 +30,18 @@ fn size(effort: Effort) -> [usize; 3] {
 
 /// An automaton in which a tenth of the cells is activated, or with draws in every cell.
 fn automaton(size: [usize; 3], with_draws: bool) -> Result<Automaton> {
-    let mut automaton = Automaton::new(&AutomatonConfig { size, ..AutomatonConfig::default() })?;
+    automaton_within(size, Edges::Open, with_draws)
+}
+
+fn automaton_within(size: [usize; 3], edges: Edges, with_draws: bool) -> Result<Automaton> {
+    let mut automaton = Automaton::new(&AutomatonConfig { size, edges, ..AutomatonConfig::default() })?;
     automaton.moisten(&[Box::new(Probabilities { humidity: 1.0, activation: 0.1, extinction: 0.0 })]);
     if with_draws {
         let half = size.map(|side| side as f64 / 2.0);
         let ellipsoid = Ellipsoid { centre_cells: half, radii_cells: half, base_cells: 0.0, strength: 1.0 };
         let supply = EllipsoidSupply { extinction: 0.1, humidity: 0.1, activation: 0.01 };
         let outside = Probabilities { extinction: 0.2, ..Probabilities::default() };
-        let bubble = HumidEllipsoids::new(size, Edges::Open, 1, supply, &[ellipsoid])?;
+        let bubble = HumidEllipsoids::new(size, edges, 1, supply, &[ellipsoid])?;
         let stack: Vec<Box<dyn ProbabilityLayer>> = vec![Box::new(outside), Box::new(bubble)];
         automaton.set_probabilities(stack);
     }
@@ -73,29 +79,56 @@ pub(crate) fn step(effort: Effort) -> Result<Case> {
     std::hint::black_box(naive.cloud());
     let mut still = automaton(size(effort), true)?;
     let still_times = timed(effort, || drop(still.step()))?;
-    let mut windy = automaton(size(effort), true)?;
     let wind = sheared(size(effort)[2])?;
-    windy.wind_mut().set_profile(wind.clone());
-    let moving = timed(effort, || drop(windy.step()))?;
+    let bubbles = |edges| -> Result<Samples> {
+        let mut windy = automaton_within(size(effort), edges, true)?;
+        windy.wind_mut().set_profile(wind.clone());
+        timed(effort, || drop(windy.step()))
+    };
+    let (drifting, entering) = (bubbles(Edges::Wrap)?, bubbles(Edges::Open)?);
     // The same probabilities in every step, as where vapour stays over a mountain.
     let mut over_hill = automaton(size(effort), false)?;
     let [humidity, activation, extinction] = [0.1, 0.01, 0.1];
     let everywhere = Probabilities { extinction, humidity, activation };
     over_hill.set_probabilities(vec![Box::new(everywhere)]);
-    over_hill.wind_mut().set_profile(wind);
+    over_hill.wind_mut().set_profile(wind.clone());
     let blown = timed(effort, || drop(over_hill.step()))?;
     let ways = vec![
         ("a byte per cell, no wind".to_owned(), naive_times),
         ("draws in bits, no wind".to_owned(), still_times),
         ("draws in bits, wind".to_owned(), blown),
-        ("the same, bubbles move too".to_owned(), moving),
+        ("bubbles drift, wrapped grid".to_owned(), drifting),
+        ("bubbles enter, open grid".to_owned(), entering),
     ];
     Ok(Case { name: STEP, ways })
 }
 
+/// The largest grid that the design asks for, where the state no longer fits into caches.
+pub(crate) fn large(effort: Effort) -> Result<Case> {
+    let size = if effort.samples > 1 { [1024, 1024, 64] } else { [64, 64, 64] };
+    let effort = Effort { samples: effort.samples.min(3), ..effort };
+    let mut naive = NaiveClouds::new(size);
+    let naive_times = measure(1, || naive.step());
+    std::hint::black_box(naive.cloud());
+    drop(naive);
+    let mut pure = automaton(size, false)?;
+    let rule_times = timed(effort, || drop(pure.step()))?;
+    drop(pure);
+    let mut full = automaton_within(size, Edges::Wrap, true)?;
+    full.wind_mut().set_profile(sheared(size[2])?);
+    let ways = vec![
+        ("full, a byte per cell, no wind".to_owned(), naive_times),
+        ("rule alone, in bits".to_owned(), rule_times),
+        ("full with wind and bubbles".to_owned(), timed(effort, || drop(full.step()))?),
+    ];
+    Ok(Case { name: LARGE, ways })
+}
+
 pub(crate) fn frame(effort: Effort) -> Result<Case> {
     let size = size(effort);
-    let mut clouds = automaton(size, true)?;
+    // As scenes have it: wrapped, with wind, under a bubble that drifts.
+    let mut clouds = automaton_within(size, Edges::Wrap, true)?;
+    clouds.wind_mut().set_profile(sheared(size[2])?);
     let mut density = CloudDensity::new(&clouds, SmoothingWindow::default());
     for _ in 0..6 {
         let plan = clouds.step();

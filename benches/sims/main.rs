@@ -53,7 +53,7 @@ fn main() -> Result<()> {
     print_line(&format!("{threads} CPU threads; microseconds a call, and how many times faster than the first way"))?;
     print_line(&format!("{:<34} {:<28} {:>12} {:>12} {:>9}", "", "", "median", "p95", "ratio"))?;
 
-    let runs: [(&str, Run); 12] = [
+    let runs: [(&str, Run); 13] = [
         (lookups::COLUMNS, lookups::columns),
         (lookups::DIRECTION, lookups::direction),
         (lookups::IRRADIANCE, lookups::irradiance),
@@ -63,6 +63,7 @@ fn main() -> Result<()> {
         (clouds::RULE, clouds::rule),
         (clouds::STEP, clouds::step),
         (clouds::FRAME, clouds::frame),
+        (clouds::LARGE, clouds::large),
         (dunes::RIPPLES, dunes::ripples),
         (dunes::DUNES, dunes::dunes),
         (dunes::GROWN_DUNES, dunes::grown_dunes),

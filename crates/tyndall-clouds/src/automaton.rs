@@ -12,8 +12,10 @@ use crate::bit_field::{BitField, GUARD, row_stride};
 use crate::edges::Edges;
 use crate::error::{CloudError, in_range};
 use crate::fields::CloudFields;
-use crate::probability::ProbabilityLayer;
-use crate::probability_planes::{DrawHashes, Effect, ProbabilityPlanes, draw_hashes, draw_row, quantise};
+use crate::probability::{LayerMotion, ProbabilityLayer};
+use crate::probability_planes::{
+    DrawHashes, Effect, ProbabilityPlanes, draw_hashes, draw_row, draw_row_shifted, quantise,
+};
 use crate::shift::{Inflow, shift_field};
 use crate::transition::{Neighbourhood, transition_row};
 use crate::wind::{ShiftPlan, Wind, WindProfile};
@@ -202,8 +204,8 @@ impl Automaton {
             hum.zip(act).enumerate().for_each(|(y, (hum, act))| {
                 let first = first_column([nx, ny], layer, y);
                 let [_, humidity, activation] = planes.row(layer, y);
-                draw_row(humidity, &hashes[0], first, Effect::Set, &mut hum[GUARD..stride - GUARD]);
-                draw_row(activation, &hashes[1], first, Effect::Set, &mut act[GUARD..stride - GUARD]);
+                draw_row(humidity, (&hashes[0], first), Effect::Set, &mut hum[GUARD..stride - GUARD]);
+                draw_row(activation, (&hashes[1], first), Effect::Set, &mut act[GUARD..stride - GUARD]);
             });
         }
     }
@@ -224,12 +226,26 @@ impl Automaton {
         let plan = self.wind.advance();
         self.move_with_wind(&plan);
         self.step = self.step.wrapping_add(1);
-        let wind = &self.wind;
-        // `fold`, because every layer has to move.
-        if self.stack.iter_mut().fold(false, |changed, layer| layer.blow(wind) | changed) {
-            self.refresh_probabilities();
+        match self.blow() {
+            LayerMotion::Still => {}
+            LayerMotion::Shifted(cells) => {
+                if let Some(planes) = &mut self.planes {
+                    planes.shift(self.fields.size(), cells);
+                }
+            }
+            LayerMotion::Changed => self.refresh_probabilities(),
         }
         plan
+    }
+
+    /// Moves the layers, and says how the probabilities of all together changed.
+    fn blow(&mut self) -> LayerMotion {
+        let wind = &self.wind;
+        let motions: Vec<_> = self.stack.iter_mut().map(|layer| layer.blow(wind)).collect();
+        let moving = self.stack.iter().zip(&motions).filter(|(layer, _)| !layer.is_even()).map(|(_, motion)| *motion);
+        let mut moving = moving.collect::<Vec<_>>().into_iter();
+        let first = moving.next().unwrap_or(LayerMotion::Still);
+        if moving.all(|motion| motion == first) { first } else { LayerMotion::Changed }
     }
 
     fn refresh_probabilities(&mut self) {
@@ -312,10 +328,15 @@ impl pulp::WithSimd for Band<'_> {
             let Some(draws) = &self.draws else { continue };
             let first = first_column([nx, ny], self.layer, y);
             let [extinction, humidity, activation] = draws.planes.row(self.layer, y);
-            draw_row(extinction, &draws.extinction, first, Effect::Clear, cld);
+            let east = draws.planes.east();
+            let draw = |planes, (hashes, effect), bits: &mut [u32]| match east {
+                0 => draw_row(planes, (hashes, first), effect, bits),
+                _ => draw_row_shifted(planes, (hashes, first), effect, &mut bits[..nx], east),
+            };
+            draw(extinction, (&draws.extinction, Effect::Clear), cld);
             if let Some([hum_hashes, act_hashes]) = &draws.supply {
-                draw_row(humidity, hum_hashes, first, Effect::Set, hum);
-                draw_row(activation, act_hashes, first, Effect::Set, next);
+                draw(humidity, (hum_hashes, Effect::Set), hum);
+                draw(activation, (act_hashes, Effect::Set), next);
             }
         }
     }

@@ -9,7 +9,7 @@ use tyndall_core::rng::CellRng;
 use crate::edges::Edges;
 use crate::error::{CloudError, in_range};
 use crate::narrow::narrow;
-use crate::probability::{ProbabilityLayer, ProbabilityRow};
+use crate::probability::{LayerMotion, ProbabilityLayer, ProbabilityRow};
 use crate::wind::Wind;
 
 /// Stream of the random numbers that say where new ellipsoids come in.
@@ -47,6 +47,8 @@ pub struct HumidEllipsoids {
     edges: Edges,
     seed: u64,
     ellipsoids: Vec<Moving>,
+    /// Whether ellipsoids that move by whole cells have the same probabilities at their new place, to the last bit.
+    shifts_exactly: bool,
 }
 
 /// An ellipsoid and how far it has drifted.
@@ -83,7 +85,9 @@ impl HumidEllipsoids {
             in_range(format!("strength of ellipsoid {index}"), ellipsoid.strength, (0.0, 100.0), "")?;
         }
         let moving = |&shown: &Ellipsoid| Moving { shown, hidden: [0.0; 2], entries: 0 };
-        Ok(Self { supply, size, edges, seed, ellipsoids: ellipsoids.iter().map(moving).collect() })
+        let shifts_exactly = edges == Edges::Wrap && ellipsoids.iter().all(|ellipsoid| shifts_exactly(ellipsoid, size));
+        let ellipsoids = ellipsoids.iter().map(moving).collect();
+        Ok(Self { supply, size, edges, seed, ellipsoids, shifts_exactly })
     }
 
     /// The ellipsoids where they are now.
@@ -94,7 +98,8 @@ impl HumidEllipsoids {
     fn apply_one(&self, ellipsoid: &Ellipsoid, east: f64, across2: f64, row: &mut ProbabilityRow) {
         let [nx, radius] = [row.extinction.len() as f64, ellipsoid.radii_cells[0]];
         let reach = radius * (1.0 - across2).sqrt();
-        let [first, end] = [east - reach, east + reach].map(|x| cell_index((x + 0.5).clamp(0.0, nx)));
+        // A cell more on both sides, to which nothing happens: the rim may not depend on how its place is rounded.
+        let [first, end] = [east - reach - 0.5, east + reach + 1.5].map(|x| cell_index(x.clamp(0.0, nx)));
         let (middle, inverse, across2) = (narrow(east), narrow(1.0 / radius), narrow(across2));
         let strength = narrow(ellipsoid.strength);
         let [humidity, activation] = [self.supply.humidity, self.supply.activation].map(|p| p * strength);
@@ -137,16 +142,23 @@ impl ProbabilityLayer for HumidEllipsoids {
         }
     }
 
-    fn blow(&mut self, wind: &Wind) -> bool {
+    fn blow(&mut self, wind: &Wind) -> LayerMotion {
         let (size, edges, rng) = (self.size, self.edges, CellRng::new(self.seed));
-        // `fold`, because every ellipsoid has to move.
-        self.ellipsoids.iter_mut().zip(0..).fold(false, |changed, (moving, index)| {
-            let moved = drift(moving, wind, size);
-            if moved {
+        let mut shifts = Vec::with_capacity(self.ellipsoids.len());
+        for (moving, index) in self.ellipsoids.iter_mut().zip(0..) {
+            let shift = drift(moving, wind, size);
+            if shift != [0; 2] {
                 enter_again(moving, size, edges, rng, index);
             }
-            changed | moved
-        })
+            shifts.push(shift);
+        }
+        match shifts.first() {
+            _ if shifts.iter().all(|shift| *shift == [0; 2]) => LayerMotion::Still,
+            Some(first) if self.shifts_exactly && shifts.iter().all(|shift| shift == first) => {
+                LayerMotion::Shifted(*first)
+            }
+            _ => LayerMotion::Changed,
+        }
     }
 
     fn state(&self) -> Vec<f64> {
@@ -173,19 +185,28 @@ impl ProbabilityLayer for HumidEllipsoids {
     }
 }
 
-/// Moves an ellipsoid by a step of the wind in its middle; true when it moved by whole cells.
-fn drift(moving: &mut Moving, wind: &Wind, size: [usize; 3]) -> bool {
+/// Whether the numbers that `apply` computes depend on the columns' distance from the middle alone: at half cells differences
+/// are exact, and an ellipsoid narrower than the grid meets no cell twice.
+fn shifts_exactly(ellipsoid: &Ellipsoid, size: [usize; 3]) -> bool {
+    [0, 1].into_iter().all(|axis| {
+        let (place, side) = (ellipsoid.centre_cells[axis], size[axis] as f64);
+        let at_half_cell = (2.0 * place).fract().abs() <= 0.0;
+        at_half_cell && (0.0..side).contains(&place) && 2.0 * ellipsoid.radii_cells[axis] <= side
+    })
+}
+
+/// Moves an ellipsoid by a step of the wind in its middle; by how many whole cells.
+#[expect(clippy::cast_possible_truncation, reason = "winds are limited to 64 cells a step")]
+fn drift(moving: &mut Moving, wind: &Wind, size: [usize; 3]) -> [i64; 2] {
     let height = cell_index(moving.shown.centre_cells[2].clamp(0.0, size[2] as f64 - 1.0));
     let speed = wind.speed_cells(height);
-    let mut moved = false;
-    for axis in [0, 1] {
+    [0, 1].map(|axis| {
         moving.hidden[axis] += speed[axis];
         let whole = moving.hidden[axis].floor();
         moving.hidden[axis] -= whole;
         moving.shown.centre_cells[axis] += whole;
-        moved |= whole.abs() > 0.0;
-    }
-    moved
+        whole as i64
+    })
 }
 
 /// Lets an ellipsoid that has left the grid come in on the other side: in an open grid at another place along that side.
@@ -251,7 +272,7 @@ mod tests {
     fn ellipsoids_drift_with_the_wind_of_their_height_and_come_in_again() {
         let mut layer = one(Edges::Open, [20.0, 15.0, 6.0]);
         let wind = Wind::new(WindProfile::uniform([0.5, 0.0]).unwrap(), 20);
-        let changes = (0..10).filter(|_| layer.blow(&wind)).count();
+        let changes = (0..10).filter(|_| layer.blow(&wind) != LayerMotion::Still).count();
         assert_eq!(changes, 5, "five whole cells in ten steps");
         let centre = layer.ellipsoids().next().unwrap().centre_cells;
         assert!((centre[0] - 25.0).abs() < 1e-9 && (centre[1] - 15.0).abs() < 1e-9, "{centre:?}");
@@ -261,6 +282,26 @@ mod tests {
         let centre = layer.ellipsoids().next().unwrap().centre_cells;
         // 20 + 60 * 0.5 = 50 is past 40 + 8: it came in at 50 - 56.
         assert!((-8.0..0.0).contains(&centre[0]) && (0.0..30.0).contains(&centre[1]), "{centre:?}");
+    }
+
+    #[test]
+    fn in_a_wrapped_grid_ellipsoids_of_one_height_shift_their_probabilities_exactly() {
+        let mut layer = one(Edges::Wrap, [20.5, 15.5, 6.0]);
+        let wind = Wind::new(WindProfile::uniform([1.7, -0.6]).unwrap(), 20);
+        let mut sum = [0; 2];
+        let start = row(&layer, 12, 7);
+        for _ in 0..40 {
+            let LayerMotion::Shifted(shift) = layer.blow(&wind) else { panic!("more than a cell a step") };
+            sum = [sum[0] + shift[0], sum[1] + shift[1]];
+            let found = row(&layer, usize::try_from((12 + sum[1]).rem_euclid(30)).unwrap(), 7);
+            let mut expected = start.clone();
+            for field in [&mut expected.extinction, &mut expected.humidity, &mut expected.activation] {
+                field.rotate_right(usize::try_from(sum[0].rem_euclid(40)).unwrap());
+            }
+            assert_eq!(found, expected, "to the last bit after a drift of {sum:?}");
+        }
+        let mut odd = one(Edges::Wrap, [20.3, 15.5, 6.0]);
+        assert_eq!(odd.blow(&wind), LayerMotion::Changed, "a third of a cell is rounded otherwise elsewhere");
     }
 
     #[test]

@@ -64,7 +64,7 @@ pub use floor_shadow::{FloorShadow, floor_shadow};
 pub use matter::CloudMatter;
 pub use metaballs::{Metaball, Metaballs};
 pub use params::{CloudGridParams, CloudMatterParams, CloudParams, VapourPattern};
-pub use probability::{Probabilities, ProbabilityLayer, ProbabilityRow};
+pub use probability::{LayerMotion, Probabilities, ProbabilityLayer, ProbabilityRow};
 pub use simulation::CloudSimulation;
 pub use smoothing::SmoothingWindow;
 pub use state::{density_from_array, density_from_arrays, state_step};

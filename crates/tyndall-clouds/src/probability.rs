@@ -48,6 +48,17 @@ pub struct Probabilities {
     pub activation: f32,
 }
 
+/// How a step of the wind has changed the probabilities of a layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LayerMotion {
+    /// Not at all.
+    Still,
+    /// Each column has those of another one, so many cells west and south of it in a grid that repeats, to the last bit.
+    Shifted([i64; 2]),
+    /// In some other way.
+    Changed,
+}
+
 /// One layer of a stack of probabilities; later layers see what earlier ones left.
 ///
 /// Values below 0 count as 0 and values from 1 on as always, so that a layer may scale without a test.
@@ -55,9 +66,14 @@ pub trait ProbabilityLayer: std::fmt::Debug + Send + Sync {
     /// Changes the probabilities of the cells (0.., y, z).
     fn apply(&self, y: usize, z: usize, row: &mut ProbabilityRow);
 
-    /// Moves along with one step of the wind; true when probabilities changed by that.
-    fn blow(&mut self, wind: &Wind) -> bool {
+    /// Moves along with one step of the wind, and says how probabilities changed by that.
+    fn blow(&mut self, wind: &Wind) -> LayerMotion {
         let _ = wind;
+        LayerMotion::Still
+    }
+
+    /// Whether it does the same in every column, so that it matters to nobody where it stands.
+    fn is_even(&self) -> bool {
         false
     }
 
@@ -83,5 +99,9 @@ pub trait ProbabilityLayer: std::fmt::Debug + Send + Sync {
 impl ProbabilityLayer for Probabilities {
     fn apply(&self, _y: usize, _z: usize, row: &mut ProbabilityRow) {
         row.fill(*self);
+    }
+
+    fn is_even(&self) -> bool {
+        true
     }
 }

@@ -39,6 +39,8 @@ pub(crate) struct ProbabilityPlanes {
     /// Row y of layer l at l * ny + y.
     rows: Vec<[PlaneRow; 3]>,
     ny: usize,
+    /// How far the planes have moved east and north since they were made, in a grid that repeats (cells).
+    moved: [usize; 2],
 }
 
 /// The hashes of one field's random bits in one step.
@@ -68,12 +70,26 @@ impl ProbabilityPlanes {
             .into_par_iter()
             .map(|index| plane_rows(size, stack, index / ny, index % ny))
             .collect();
-        Self { rows, ny }
+        Self { rows, ny, moved: [0; 2] }
+    }
+
+    /// Moves everything by whole cells in a grid that repeats.
+    pub(crate) fn shift(&mut self, size: [usize; 3], cells: [i64; 2]) {
+        for axis in [0, 1] {
+            let side = i64::try_from(size[axis]).unwrap_or(i64::MAX);
+            let moved = i64::try_from(self.moved[axis]).unwrap_or(0) + cells[axis];
+            self.moved[axis] = usize::try_from(moved.rem_euclid(side)).unwrap_or(0);
+        }
+    }
+
+    /// How far east the columns of [`ProbabilityPlanes::row`] have to be moved (cells).
+    pub(crate) fn east(&self) -> usize {
+        self.moved[0]
     }
 
     /// Extinction, humidity and activation of a row.
     pub(crate) fn row(&self, layer: usize, y: usize) -> &[PlaneRow; 3] {
-        &self.rows[layer * self.ny + y]
+        &self.rows[layer * self.ny + (y + self.ny - self.moved[1]) % self.ny]
     }
 }
 
@@ -183,25 +199,82 @@ pub(crate) enum Effect {
 
 /// Draws for one row of one layer: `bits` are its padded words, `first` the number of its first column.
 #[inline(always)]
-pub(crate) fn draw_row(planes: &PlaneRow, hashes: &DrawHashes, first: u32, effect: Effect, bits: &mut [u32]) {
+pub(crate) fn draw_row(planes: &PlaneRow, (hashes, first): (&DrawHashes, u32), effect: Effect, bits: &mut [u32]) {
     let mut column = first;
     for (index, words) in bits.chunks_exact_mut(LANES).enumerate() {
         if let (Some(group), Ok(words)) = (planes.group(index), <&mut Lanes>::try_from(words)) {
-            let drawn = draw_group(group, hashes, column, effect, words);
-            for lane in 0..LANES {
-                match effect {
-                    Effect::Clear => words[lane] &= !drawn[lane],
-                    Effect::Set => words[lane] |= drawn[lane],
-                }
-            }
+            draw_words(group, (hashes, columns_from(column)), effect, words);
         }
         column = column.wrapping_add(16);
     }
 }
 
+/// [`draw_row`] with planes that have moved `east` cells in a grid that repeats: `bits` are the row's words without padding.
+#[inline(always)]
+pub(crate) fn draw_row_shifted(
+    planes: &PlaneRow,
+    (hashes, first): (&DrawHashes, u32),
+    effect: Effect,
+    bits: &mut [u32],
+    east: usize,
+) {
+    let nx = bits.len();
+    for (index, begin) in (0..nx).step_by(LANES).enumerate() {
+        let Some(group) = planes.group(index) else { continue };
+        let place = (begin + east) % nx;
+        let count = LANES.min(nx - begin);
+        if let Some(Ok(words)) =
+            bits.get_mut(place..place + LANES).filter(|_| count == LANES).map(<&mut Lanes>::try_from)
+        {
+            draw_words(group, (hashes, columns_from(number(first, place))), effect, words);
+            continue;
+        }
+        // The group lies across the end of the row, or is its last and not full.
+        let (mut words, mut columns) = ([0; LANES], [0; LANES]);
+        for lane in 0..count {
+            let place = (place + lane) % nx;
+            (words[lane], columns[lane]) = (bits[place], number(first, place));
+        }
+        draw_words(group, (hashes, columns), effect, &mut words);
+        for lane in 0..count {
+            bits[(place + lane) % nx] = words[lane];
+        }
+    }
+}
+
+/// Number of the column at a place of a row.
+#[inline(always)]
+fn number(first: u32, place: usize) -> u32 {
+    first.wrapping_add(u32::try_from(place).unwrap_or(u32::MAX))
+}
+
+/// Numbers of the columns of a group.
+#[inline(always)]
+fn columns_from(first: u32) -> Lanes {
+    let mut columns = [0; LANES];
+    let mut index = first;
+    for column in &mut columns {
+        *column = index;
+        index = index.wrapping_add(1);
+    }
+    columns
+}
+
+/// Draws for one group.
+#[inline(always)]
+fn draw_words(group: &Group, (hashes, columns): (&DrawHashes, Lanes), effect: Effect, words: &mut Lanes) {
+    let drawn = draw_group(group, (hashes, columns), effect, words);
+    for lane in 0..LANES {
+        match effect {
+            Effect::Clear => words[lane] &= !drawn[lane],
+            Effect::Set => words[lane] |= drawn[lane],
+        }
+    }
+}
+
 /// The cells of a group that are drawn, as far as they matter.
 #[inline(always)]
-fn draw_group(group: &Group, hashes: &DrawHashes, column: u32, effect: Effect, words: &Lanes) -> Lanes {
+fn draw_group(group: &Group, (hashes, columns): (&DrawHashes, Lanes), effect: Effect, words: &Lanes) -> Lanes {
     let mut drawn = group[0];
     let mut undecided = group[1];
     for lane in 0..LANES {
@@ -211,14 +284,8 @@ fn draw_group(group: &Group, hashes: &DrawHashes, column: u32, effect: Effect, w
         if is_zero(&undecided) {
             break;
         }
-        let mut index = column;
-        let mut random = [0; LANES];
-        for word in &mut random {
-            *word = index;
-            index = index.wrapping_add(1);
-        }
         for lane in 0..LANES {
-            let random = hash.word(random[lane]);
+            let random = hash.word(columns[lane]);
             drawn[lane] |= undecided[lane] & plane[lane] & !random;
             undecided[lane] &= !(plane[lane] ^ random);
         }

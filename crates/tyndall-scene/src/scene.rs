@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// Most cells of the clouds of a scene: a frame needs some 60 bytes for each.
-pub(crate) const MOST_CLOUD_CELLS: u64 = 1 << 25;
+pub(crate) const MOST_CLOUD_CELLS: u64 = 1 << 26;
 
 /// Everything that a picture depends on, and its title.
 #[derive(Clone, Debug, Default, PartialEq)]
