@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 use tyndall_clouds::reference::{
     Light, Medium, PathPicture, PathSettings, Ray, TabulatedPhase, ball_medium, path_picture, single_scattering,
 };
-use tyndall_clouds::{density_from_array, density_from_arrays};
+use tyndall_clouds::{Metaball, Metaballs, density_from_array, density_from_arrays};
 use tyndall_core::metaball::{ball_column, ball_field, ball_field_slope};
 use tyndall_io::{read_npy, read_npz};
 use tyndall_tests::shared_data;
 
 /// Pixels of the reference pictures: two per cell, looking north.
-const SIZE_PX: [usize; 2] = [192, 64];
-const CELLS: [f64; 3] = [96.0, 64.0, 32.0];
+pub(crate) const SIZE_PX: [usize; 2] = [192, 64];
+pub(crate) const CELLS: [f64; 3] = [96.0, 64.0, 32.0];
 /// Extinction in the middle of a full ball (1/cell).
 const EXTINCTION: f32 = 0.17;
 
@@ -42,8 +42,23 @@ fn known_cloud() -> Option<Medium> {
     Some(ball_medium(&q, 2.0, 0.625, 4).expect("radius and samples are allowed"))
 }
 
+/// The balls of the known cloud, in cells.
+pub(crate) fn known_balls() -> Option<Metaballs> {
+    let arrays = read_npz(shared_data("clouds/ca_cloud_scene.npz")?).expect("the reference cloud is an NPZ file");
+    let q = density_from_arrays(&arrays, None).expect("one grid of the file is a density");
+    let [nx, ny, _] = q.size();
+    let place = |index: usize| [index % nx, index / nx % ny, index / (nx * ny)].map(|cell| cell as f32 + 0.625);
+    let filled = q.cells().iter().enumerate().filter(|(_, q)| **q > 0.0);
+    let ball = |(index, q): (usize, &f32)| Metaball {
+        centre_m: place(index),
+        radius_m: 2.0,
+        extinction_per_m: EXTINCTION * q,
+    };
+    Some(Metaballs { balls: filled.map(ball).collect() })
+}
+
 /// A reference picture as [row][column], row 0 at the top.
-fn known_picture(name: &str) -> Option<Vec<f64>> {
+pub(crate) fn known_picture(name: &str) -> Option<Vec<f64>> {
     // Files have one slice where a density has a third dimension.
     let array = read_npy(shared_data(name)?).expect("reference pictures are NPY files");
     let shape = [array.shape()[1], array.shape()[0], 1];

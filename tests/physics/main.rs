@@ -17,6 +17,7 @@ mod pictures;
 mod random_walks;
 mod reference_data;
 mod render;
+mod splat_pictures;
 mod sun_disc;
 mod table;
 mod twins;

@@ -13,6 +13,7 @@
 //! - [`CloudMatter`]: what all of this hands to renderers: a grid of extinction with its place, and its balls.
 //! - [`mod@floor_shadow`]: what clouds leave of the light of sun and sky on its way to the ground.
 //! - [`Metaballs`]: lists of balls for splatting and for other programs.
+//! - [`splats`]: the paper's rendering of such lists: a sun pass, and billboards from back to front.
 //! - [`mod@reference`]: single scattering by marching and all orders by Monte Carlo, to judge renderers by.
 //!
 //! x is east, y north, z the height; lengths are cells of the grid and times are steps, where nothing else is said.
@@ -42,6 +43,7 @@ pub mod reference;
 mod shift;
 mod simulation;
 pub mod smoothing;
+pub mod splats;
 mod state;
 pub mod statistics;
 mod sun_depth;

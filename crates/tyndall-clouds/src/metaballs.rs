@@ -83,23 +83,8 @@ impl Metaballs {
     /// and the same mass: a coarser cloud for the distance.
     #[must_use]
     pub fn merged(&self, cube_m: f32) -> Self {
-        // An ordered map, because the order of the list must not depend on a hash.
-        let mut cubes = std::collections::BTreeMap::<[i64; 3], Vec<&Metaball>>::new();
-        for ball in &self.balls {
-            cubes.entry(ball.centre_m.map(|place| cube_index(place / cube_m))).or_default().push(ball);
-        }
-        let merge = |balls: &Vec<&Metaball>| {
-            let mass_m2: f64 = balls.iter().map(|ball| ball.mass_m2()).sum();
-            let centre = |axis: usize| {
-                let moment: f64 = balls.iter().map(|ball| ball.mass_m2() * f64::from(ball.centre_m[axis])).sum();
-                narrow(moment / mass_m2)
-            };
-            let radius_m = 2.0 * balls.iter().map(|ball| ball.radius_m).fold(0.0, f32::max);
-            let extinction_per_m = narrow(mass_m2 / (BALL_MASS * f64::from(radius_m).powi(3)));
-            Metaball { centre_m: [0, 1, 2].map(centre), radius_m, extinction_per_m }
-        };
-        let heavy = cubes.values().filter(|balls| balls.iter().any(|ball| ball.mass_m2() > 0.0));
-        Self { balls: heavy.map(merge).collect() }
+        let groups = cubes(self.balls.iter(), cube_m, |ball| *ball);
+        Self { balls: groups.iter().filter_map(|group| merge(&group.iter().copied())).collect() }
     }
 
     /// As comma-separated values, one ball a line under a line of names; [`Metaballs::from_csv`] reads every number back.
@@ -129,6 +114,29 @@ impl Metaballs {
         }
         Ok(Self { balls })
     }
+}
+
+/// Balls by the cube of side `cube_m` that they stand in, in an order that does not depend on theirs.
+pub(crate) fn cubes<T>(items: impl Iterator<Item = T>, cube_m: f32, ball: impl Fn(&T) -> &Metaball) -> Vec<Vec<T>> {
+    // An ordered map, because the order of the groups must not depend on a hash.
+    let mut cubes = std::collections::BTreeMap::<[i64; 3], Vec<T>>::new();
+    for item in items {
+        let cube = ball(&item).centre_m.map(|place| cube_index(place / cube_m));
+        cubes.entry(cube).or_default().push(item);
+    }
+    cubes.into_values().collect()
+}
+
+/// One ball for several: their mass, their centre of mass, twice their radius; `None` for balls without mass.
+pub(crate) fn merge<'a>(balls: &(impl Iterator<Item = &'a Metaball> + Clone)) -> Option<Metaball> {
+    let mass_m2: f64 = balls.clone().map(Metaball::mass_m2).sum();
+    let centre = |axis: usize| {
+        let moment: f64 = balls.clone().map(|ball| ball.mass_m2() * f64::from(ball.centre_m[axis])).sum();
+        narrow(moment / mass_m2)
+    };
+    let radius_m = 2.0 * balls.clone().map(|ball| ball.radius_m).fold(0.0, f32::max);
+    let extinction_per_m = narrow(mass_m2 / (BALL_MASS * f64::from(radius_m).powi(3)));
+    (mass_m2 > 0.0).then(|| Metaball { centre_m: [0, 1, 2].map(centre), radius_m, extinction_per_m })
 }
 
 fn ball_from_line(content: &str) -> Result<Metaball, String> {
