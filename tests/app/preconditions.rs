@@ -278,6 +278,7 @@ pub(crate) const ALL: &[Precondition] = &[
             ("cloud_wind.floor_from_deg", Some(90.0)),
             ("cloud_wind.ceiling_speed_m_s", Some(20.0)),
             ("cloud_wind.ceiling_from_deg", Some(90.0)),
+            ("cloud_wind.middle", None),
             ("cloud_matter.extinction_per_m", Some(0.01)),
             ("cloud_matter.ball_radius_cells", Some(3.0)),
             ("cloud_matter.smooth_cells", Some(0.0)),
@@ -292,6 +293,18 @@ pub(crate) const ALL: &[Precondition] = &[
             ("clouds.file_holds", None),
             ("clouds.file_ball_place", Some(0.1)),
             ("clouds.file_samples", Some(3.0)),
+        ],
+    },
+    Precondition {
+        name: "clouds in a wind given at three heights",
+        prepare: |scene| {
+            cloudy(scene);
+            scene.cloud_wind.middle = true;
+        },
+        parameters: &[
+            ("cloud_wind.middle_share", Some(0.8)),
+            ("cloud_wind.middle_speed_m_s", Some(20.0)),
+            ("cloud_wind.middle_from_deg", Some(90.0)),
         ],
     },
     Precondition {

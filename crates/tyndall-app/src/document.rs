@@ -46,7 +46,8 @@ impl Document {
     }
 
     fn with(file: SceneFile, path: Option<PathBuf>) -> Self {
-        let settings = Settings { stable_time: UNDO_REST_S, ..Settings::default() };
+        // What plays for long is undone in one step.
+        let settings = Settings { stable_time: UNDO_REST_S, auto_save_interval: f32::INFINITY, ..Settings::default() };
         let mut undo = Undoer::with_settings(settings);
         undo.add_undo(&file.scene);
         Self { saved: file.scene.clone(), file, path, undo }

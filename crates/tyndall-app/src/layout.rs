@@ -9,6 +9,7 @@ pub(crate) enum Pane {
     Parameters,
     Camera,
     Time,
+    Clouds,
     Export,
     Gallery,
     Plots,
@@ -19,11 +20,12 @@ pub(crate) enum Pane {
 
 impl Pane {
     /// All, in the order of the menu.
-    pub(crate) const ALL: [Self; 10] = [
+    pub(crate) const ALL: [Self; 11] = [
         Self::Viewport,
         Self::Parameters,
         Self::Camera,
         Self::Time,
+        Self::Clouds,
         Self::Export,
         Self::Gallery,
         Self::Plots,
@@ -39,6 +41,7 @@ impl Pane {
             Self::Parameters => "Parameters",
             Self::Camera => "Camera",
             Self::Time => "Date and place",
+            Self::Clouds => "Clouds",
             Self::Export => "Export",
             Self::Gallery => "Gallery",
             Self::Plots => "Plots",
@@ -65,7 +68,7 @@ pub(crate) fn default_tree() -> Tree<Pane> {
     let view = tabs(&mut tiles, &[Pane::Viewport]);
     let below = tabs(&mut tiles, &[Pane::Gallery, Pane::Plots, Pane::Accuracy, Pane::Timings, Pane::Log]);
     let parameters = tabs(&mut tiles, &[Pane::Parameters]);
-    let camera = tabs(&mut tiles, &[Pane::Camera, Pane::Time, Pane::Export]);
+    let camera = tabs(&mut tiles, &[Pane::Camera, Pane::Time, Pane::Clouds, Pane::Export]);
     let split = |tiles: &mut Tiles<Pane>, dir, parts, share| {
         let linear = Linear::new_binary(dir, parts, share);
         tiles.insert_new(Tile::Container(Container::Linear(linear)))

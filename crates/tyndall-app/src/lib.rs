@@ -10,6 +10,7 @@ mod action;
 mod app;
 mod banner;
 mod chapters;
+mod cloud_clock;
 mod commands;
 mod detail;
 mod document;

@@ -75,6 +75,9 @@ fn clouds(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
         {
             Some(STILL)
         }
+        ("cloud_wind", "middle_share" | "middle_speed_m_s" | "middle_from_deg") if !scene.cloud_wind.middle => {
+            Some("The wind goes straight from floor to ceiling; switch Middle on.")
+        }
         _ => None,
     }
 }

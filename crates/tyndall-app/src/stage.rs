@@ -129,6 +129,11 @@ impl Stage {
         self.problem.is_none() && self.engine().is_some_and(|engine| engine.clouds().building)
     }
 
+    /// Whether the next moment of the clouds can be asked for: those before are there, if not yet shown.
+    pub(crate) fn takes_clouds(&self) -> bool {
+        !self.is_simulating() || self.engine().is_some_and(Engine::has_news)
+    }
+
     /// Whether clouds have been simulated for so long that the user should know; asks to be asked again where that is near.
     pub(crate) fn is_simulating_long(&mut self, ctx: &egui::Context) -> bool {
         let now_s = ctx.input(|input| input.time);
@@ -181,12 +186,24 @@ impl Stage {
         self.problem = self.engine.as_ref().err().cloned();
     }
 
-    /// Draws what is needed for a view of this size. `moving` is whether the user is at it, by pointer or keyboard.
-    pub(crate) fn present(&mut self, ctx: &egui::Context, scene: &Scene, view_px: [u32; 2], moving: bool) {
+    /// Draws what is needed for a view of this size. `moving` is whether the user is at it, by pointer or keyboard, and
+    /// `is_playing` whether it moves by itself.
+    pub(crate) fn present(
+        &mut self,
+        ctx: &egui::Context,
+        scene: &Scene,
+        view_px: [u32; 2],
+        (moving, is_playing): (bool, bool),
+    ) {
         if self.problem.as_ref().is_some_and(|problem| problem.rebuild) {
             return;
         }
         let now_s = ctx.input(|input| input.time);
+        if is_playing && self.refine_at_s.is_some() {
+            // What plays is at rest between two of its moments only.
+            self.refine_at_s = Some(now_s + REST_S);
+        }
+        let moving = moving || is_playing;
         let wanted = Wanted { scene: picture_of(scene), view_px };
         if self.tried.as_ref() != Some(&wanted) {
             let divisor = if moving { self.preview.divisor(view_px) } else { 1 };

@@ -63,9 +63,8 @@ pub(crate) fn show(
     if flying {
         ui.ctx().request_repaint();
     }
-    let moving =
-        flying || is_playing || ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != Vec2::ZERO);
-    stage.present(ui.ctx(), scene, size_px(ui, size_pt), moving);
+    let moving = flying || ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != Vec2::ZERO);
+    stage.present(ui.ctx(), scene, size_px(ui, size_pt), (moving, is_playing));
 
     match stage.picture() {
         Some((texture, _)) => egui::Image::new((texture, size_pt)).paint_at(ui, rect),

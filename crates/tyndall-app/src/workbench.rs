@@ -3,17 +3,19 @@
 use egui::{Frame, Margin, Ui, WidgetText};
 use egui_tiles::{Behavior, SimplificationOptions, TileId, UiResponse};
 use tracing::Level;
-use tyndall_scene::Preset;
+use tyndall_scene::{CloudKind, Preset};
 
 use crate::{
+    cloud_clock::CloudClock,
     document::Document,
+    engine::Engine,
     error_meter::{ErrorMeter, Thoroughness},
     export_options::ExportOptions,
     file_dialog::FileDialogs,
     layout::Pane,
     logging::LogBuffer,
     panels::{
-        camera,
+        camera, clouds,
         export::{self, Exports},
         gallery::Gallery,
         log, parameters, plots,
@@ -45,6 +47,8 @@ pub(crate) struct Workbench {
     pub(crate) chosen: Option<Preset>,
     /// Date, time and place, and whether time runs.
     pub(crate) time: TimePanel,
+    /// Whether the clouds move.
+    pub(crate) clouds: CloudClock,
     probe: SkyProbe,
     meter: ErrorMeter,
     thoroughness: Thoroughness,
@@ -68,6 +72,7 @@ impl Workbench {
             export,
             chosen: None,
             time: TimePanel::default(),
+            clouds: CloudClock::default(),
             probe: SkyProbe::default(),
             meter: ErrorMeter::default(),
             thoroughness: Thoroughness::default(),
@@ -87,6 +92,7 @@ impl Workbench {
     pub(crate) fn replace_document(&mut self, document: Document) {
         self.document = document;
         self.time.playback.is_playing = false;
+        self.clouds.is_playing = false;
     }
 
     /// Lets the time of the scene run while it plays.
@@ -95,6 +101,16 @@ impl Workbench {
         if self.time.playback.run(&mut self.document.scene_mut().sun, passed_s) {
             ctx.request_repaint();
         }
+        self.run_clouds(ctx);
+    }
+
+    /// Lets the time of the clouds run while they play.
+    fn run_clouds(&mut self, ctx: &egui::Context) {
+        let scene = self.document.scene_mut();
+        self.clouds.is_playing &= scene.clouds.kind == CloudKind::Automaton;
+        let is_ready = self.stage.as_ref().is_none_or(Stage::takes_clouds);
+        let last_s = clouds::last_time_s(scene);
+        self.clouds.run(&mut scene.clouds.time_s, last_s, ctx.input(|input| input.time), is_ready);
     }
 
     /// The viewport alone.
@@ -103,7 +119,7 @@ impl Workbench {
             ui.label("This window has no graphics device.");
             return;
         };
-        let is_playing = self.time.playback.is_playing;
+        let is_playing = self.time.playback.is_playing || self.clouds.is_playing;
         let pointed = viewport::show(ui, stage, self.document.scene_mut(), &self.viewport, is_playing);
         self.cursor = pointed.or(self.cursor);
     }
@@ -115,6 +131,10 @@ impl Workbench {
             Pane::Parameters => parameters::show(ui, document.scene_mut(), &mut self.filter),
             Pane::Camera => camera::show(ui, document.scene_mut(), &mut self.viewport),
             Pane::Time => self.time.show(ui, document.scene_mut()),
+            Pane::Clouds => {
+                let progress = stage.as_ref().and_then(Stage::engine).map(Engine::clouds);
+                clouds::show(ui, document.scene_mut(), &mut self.clouds, progress);
+            }
             Pane::Export => export::show(ui, document, &mut self.export, exports, dialogs),
             Pane::Gallery => self.chosen = stage.as_ref().and_then(|stage| self.gallery.show(ui, stage)),
             Pane::Plots => {

@@ -79,7 +79,7 @@ params! {
 }
 
 params! {
-    /// Wind in the box, linear from floor to ceiling.
+    /// Wind in the box, linear from floor to ceiling or to a height in between and on from there.
     pub struct CloudWindParams {
         /// Speed at the floor.
         floor_speed_m_s: f64 = 3.0, ["m/s", 0.0..=100.0, Linear], "paper section 3.2";
@@ -89,6 +89,14 @@ params! {
         ceiling_speed_m_s: f64 = 6.0, ["m/s", 0.0..=100.0, Linear], "paper section 3.2";
         /// Direction at the ceiling from which the wind blows, clockwise from north.
         ceiling_from_deg: f64 = 260.0, ["deg", 0.0..=360.0, Linear], "paper section 3.2";
+        /// Whether the wind at a height in between is given too.
+        middle: bool = false, "design";
+        /// That height, as a share of the height from floor to ceiling.
+        middle_share: f64 = 0.5, ["1", 0.05..=0.95, Linear], "design";
+        /// Speed in the middle.
+        middle_speed_m_s: f64 = 4.5, ["m/s", 0.0..=100.0, Linear], "paper section 3.2";
+        /// Direction in the middle from which the wind blows, clockwise from north.
+        middle_from_deg: f64 = 250.0, ["deg", 0.0..=360.0, Linear], "paper section 3.2";
     }
 }
 

@@ -9,7 +9,7 @@ use crate::ellipsoids::{EllipsoidSupply, HumidEllipsoids};
 use crate::error::{CloudError, in_range};
 use crate::metaballs::{Metaball, Metaballs};
 use crate::narrow::narrow;
-use crate::params::{CloudParams, CloudWindParams};
+use crate::params::CloudParams;
 use crate::probability::{Probabilities, ProbabilityLayer};
 use crate::smoothing::SmoothingWindow;
 use crate::statistics::CloudStatistics;
@@ -207,18 +207,19 @@ fn check(params: &CloudParams) -> Result<(), CloudError> {
 
 /// Wind in cells per step.
 fn wind_profile(params: &CloudParams) -> Result<WindProfile, CloudError> {
-    let CloudWindParams { floor_speed_m_s, floor_from_deg, ceiling_speed_m_s, ceiling_from_deg } = params.wind;
-    let grid = &params.grid;
-    let knot = |height_cells: f64, speed_m_s: f64, from_deg: f64| {
+    let (wind, grid) = (&params.wind, &params.grid);
+    let knot = |share: f64, speed_m_s: f64, from_deg: f64| {
         let (sine, cosine) = from_deg.to_radians().sin_cos();
         let cells = speed_m_s * grid.step_s / grid.cell_m;
+        let height_cells = share * f64::from(grid.cells_up);
         WindKnot { height_cells, cells_per_step: [-sine * cells, -cosine * cells] }
     };
-    let ceiling = f64::from(grid.cells_up);
-    WindProfile::new(vec![
-        knot(0.0, floor_speed_m_s, floor_from_deg),
-        knot(ceiling, ceiling_speed_m_s, ceiling_from_deg),
-    ])
+    let mut knots = vec![knot(0.0, wind.floor_speed_m_s, wind.floor_from_deg)];
+    if wind.middle {
+        knots.push(knot(wind.middle_share, wind.middle_speed_m_s, wind.middle_from_deg));
+    }
+    knots.push(knot(1.0, wind.ceiling_speed_m_s, wind.ceiling_from_deg));
+    WindProfile::new(knots)
 }
 
 #[cfg(test)]
@@ -272,6 +273,21 @@ mod tests {
         let one = balls.balls[0];
         let want = BALL_MASS * f64::from(one.extinction_per_m) * f64::from(one.radius_m).powi(3);
         assert!((one.mass_m2() / want - 1.0).abs() < 1e-6, "mass of one ball");
+    }
+
+    #[test]
+    fn the_wind_in_the_middle_counts_only_where_it_is_wanted() {
+        let mut params = CloudParams::default();
+        let wind = &mut params.wind;
+        (wind.floor_from_deg, wind.middle_from_deg, wind.ceiling_from_deg) = (270.0, 180.0, 270.0);
+        (wind.middle_share, wind.middle_speed_m_s) = (0.25, 5.0);
+        let middle = |params: &CloudParams| wind_profile(params).unwrap().at(8.0);
+        let [east, north] = middle(&params);
+        assert!(east > 1.0 && north.abs() < 1e-9, "from the west, 3 to 6 m/s: {east} {north}");
+        params.wind.middle = true;
+        let [east, north] = middle(&params);
+        // 5 m/s from the south, 20 s a step, cells of 50 m.
+        assert!(east.abs() < 1e-9 && (north - 2.0).abs() < 1e-9, "a quarter up: {east} {north}");
     }
 
     #[test]

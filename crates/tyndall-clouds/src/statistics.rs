@@ -37,12 +37,10 @@ impl CloudStatistics {
         let [nx, ny, nz] = fields.size();
         let cells = (nx * ny * nz) as f64;
         let [hum, act, cld] = fields.counts().map(|count| count as f64);
-        let projection = project(&fields.cld);
-        let covered = projection.cells().iter().filter(|&&cloud| cloud).count();
         let occupied = occupied_heights(&fields.cld);
         let moist = moist_cells(fields);
         Self {
-            cover: covered as f64 / (nx * ny) as f64,
+            cover: cover(&fields.cld),
             cloud: cld / cells,
             humidity: hum / cells,
             activation: act / cells,
@@ -59,6 +57,14 @@ pub fn project(cld: &BitField) -> Grid2<bool> {
     let [nx, ny, _] = cld.size();
     let layers = 0..cld.layer_count();
     Grid2::from_fn([nx, ny], |x, y| layers.clone().any(|layer| cld.row(layer, y)[x] != 0))
+}
+
+/// Share of columns with cloud.
+#[must_use]
+pub fn cover(cld: &BitField) -> f64 {
+    let projection = project(cld);
+    let cells = projection.cells();
+    cells.iter().filter(|&&cloud| cloud).count() as f64 / cells.len().max(1) as f64
 }
 
 /// Number of bits of each height.

@@ -1,6 +1,8 @@
 //! The panels around the viewport.
 
 pub(crate) mod camera;
+mod cloud_figures;
+pub(crate) mod clouds;
 pub(crate) mod dial;
 pub(crate) mod export;
 pub(crate) mod gallery;
@@ -9,10 +11,12 @@ pub(crate) mod log;
 pub(crate) mod parameters;
 pub(crate) mod plots;
 pub(crate) mod row;
+mod signs;
 mod text_row;
 pub(crate) mod time;
 pub(crate) mod timings;
 pub(crate) mod validate;
+mod wind;
 
 /// Room beside the contents of a list for its scroll bar.
 pub(crate) const SCROLL_MARGIN: egui::Margin = egui::Margin { left: 4, right: 10, top: 0, bottom: 0 };

@@ -99,7 +99,7 @@ enum Order {
     /// To start simulations from a state.
     Start(Option<NamedArrays>),
     /// To make a volume; the number of the request is its place among all.
-    Make(u64, VolumeRequest),
+    Make(u64, Box<VolumeRequest>),
 }
 
 /// A thread that makes volumes.
@@ -150,7 +150,7 @@ impl Worker {
             return;
         }
         let number = self.newest.fetch_add(1, Ordering::AcqRel) + 1;
-        if self.orders.send(Order::Make(number, request.clone())).is_ok() {
+        if self.orders.send(Order::Make(number, Box::new(request.clone()))).is_ok() {
             self.asked = Some(request.clone());
         }
     }
@@ -167,7 +167,7 @@ fn newest_of(maker: &mut VolumeMaker, first: Order, received: &Receiver<Order>) 
     for order in std::iter::once(first).chain(received.try_iter()) {
         match order {
             Order::Start(state) => maker.start_from(state),
-            Order::Make(number, request) => newest = Some((number, request)),
+            Order::Make(number, request) => newest = Some((number, *request)),
         }
     }
     newest

@@ -2,8 +2,10 @@
 
 use std::time::Duration;
 
+use tyndall_clouds::CloudStatistics;
 use tyndall_clouds::statistics::{area_perimeter_dimension, project, separate_clouds};
-use tyndall_clouds::{CloudSimulation, CloudStatistics};
+
+use super::source::CloudSource;
 
 /// Least area (cells) of a cloud that counts for the dimension: smaller ones are as round as cells.
 const LEAST_AREA: u64 = 10;
@@ -25,6 +27,8 @@ pub struct CloudReport {
     pub clouds: usize,
     /// Dimension of the clouds' outlines and its standard error; `None` with too few clouds.
     pub dimension: Option<(f64, f64)>,
+    /// Time since the end of the warm-up (s) and share of the sky with cloud, for each of the last steps.
+    pub cover: Vec<(f64, f64)>,
     /// How long it took.
     pub times: CloudTimes,
 }
@@ -39,13 +43,14 @@ pub struct CloudTimes {
 }
 
 impl CloudReport {
-    /// Of a simulation and the time its parts took.
-    pub(super) fn new(simulation: &CloudSimulation, times: CloudTimes) -> Self {
+    /// Of a source and the time that the light took; `None` when no simulation is its source.
+    pub(super) fn new(source: &CloudSource, light: Duration) -> Option<Self> {
+        let simulation = source.simulation()?;
         let fields = simulation.automaton().fields();
         let edges = simulation.params().grid.edges;
         let mut figures = separate_clouds(&project(&fields.cld), edges);
         figures.retain(|[area, _]| *area >= LEAST_AREA);
-        Self {
+        Some(Self {
             time_s: simulation.time_s(),
             steps: simulation.automaton().step_count(),
             cells: fields.size().iter().map(|&count| count as u64).product(),
@@ -53,7 +58,8 @@ impl CloudReport {
             statistics: simulation.statistics(),
             clouds: figures.len(),
             dimension: area_perimeter_dimension(&figures),
-            times,
-        }
+            cover: source.cover_history().iter().copied().collect(),
+            times: CloudTimes { step: source.step_time(), light },
+        })
     }
 }

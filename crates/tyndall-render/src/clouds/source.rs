@@ -1,9 +1,11 @@
 //! Where the clouds of a scene come from, and what they consist of at a moment.
 
+use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use tyndall_clouds::statistics::cover;
 use tyndall_clouds::{CloudMatter, CloudParams, CloudSimulation, state_step};
 use tyndall_core::array::NamedArrays;
 use tyndall_io::IoError;
@@ -11,6 +13,9 @@ use tyndall_scene::{CloudKind, Scene};
 
 use super::file::CloudFileRequest;
 use crate::RenderError;
+
+/// Steps whose cover is kept.
+const KEPT_STEPS: usize = 2000;
 
 /// Why clouds could not be taken from a file.
 #[derive(Debug, thiserror::Error)]
@@ -68,6 +73,7 @@ pub struct CloudSource {
     start: Option<NamedArrays>,
     simulation: Option<CloudSimulation>,
     step_time: Option<Duration>,
+    cover: VecDeque<(f64, f64)>,
     last: Option<(CloudSourceRequest, Arc<CloudMatter>)>,
 }
 
@@ -126,6 +132,12 @@ impl CloudSource {
         self.step_time
     }
 
+    /// Time since the end of the warm-up (s) and share of the sky with cloud for each of the last steps.
+    #[must_use]
+    pub fn cover_history(&self) -> &VecDeque<(f64, f64)> {
+        &self.cover
+    }
+
     /// The automaton's clouds; it goes on from where it stands when that is not too far.
     fn simulate(
         &mut self,
@@ -139,8 +151,13 @@ impl CloudSource {
         let wanted = first.saturating_add(steps);
         let mut simulation = match (earlier.filter(|known| known.automaton().step_count() <= wanted), &self.start) {
             (Some(known), _) => known,
-            (None, Some(state)) => CloudSimulation::from_state(params, state)?,
-            (None, None) => CloudSimulation::cold(params)?,
+            (None, start) => {
+                self.cover.clear();
+                match start {
+                    Some(state) => CloudSimulation::from_state(params, state)?,
+                    None => CloudSimulation::cold(params)?,
+                }
+            }
         };
         let is_done = self.advance(&mut simulation, wanted, is_stale);
         let matter = is_done.then(|| CloudMatter::of_simulation(&mut simulation, fraction)).transpose()?;
@@ -153,6 +170,10 @@ impl CloudSource {
         let (started, first) = (Instant::now(), simulation.automaton().step_count());
         while simulation.automaton().step_count() < wanted && !is_stale() {
             simulation.advance(1);
+            if self.cover.len() == KEPT_STEPS {
+                self.cover.pop_front();
+            }
+            self.cover.push_back((simulation.time_s(), cover(&simulation.automaton().fields().cld)));
         }
         let last = simulation.automaton().step_count();
         if last > first {

@@ -11,7 +11,7 @@ use tyndall_gpu::{Gpu, Texture, TextureDesc};
 
 use super::building::{CloudProgress, Making};
 use super::gpu_data;
-use super::report::{CloudReport, CloudTimes};
+use super::report::CloudReport;
 use super::shadow::shadow_map;
 use super::skip::skip_cells;
 use super::source::{CloudSource, CloudSourceRequest};
@@ -78,8 +78,7 @@ impl VolumeMaker {
         let light = cloud_light(&matter.extinction_per_m, matter.cell_m, to_sun, transport, matter.edges)?;
         let texels = texels(&matter.extinction_per_m, &light);
         let shadow = floor_shadow(&matter.extinction_per_m, matter.cell_m, to_sun, transport, matter.edges)?.levels();
-        let times = CloudTimes { step: self.source.step_time(), light: started.elapsed() };
-        let report = self.source.simulation().map(|simulation| Arc::new(CloudReport::new(simulation, times)));
+        let report = CloudReport::new(&self.source, started.elapsed()).map(Arc::new);
         Ok(Some(Volume { texels, shadow, skips: self.skips(&matter), report, matter }))
     }
 
