@@ -93,6 +93,14 @@ pub enum CloudError {
         /// What is wrong.
         problem: String,
     },
+    /// A text that describes clouds cannot be read.
+    #[error("`{name}`: {problem}")]
+    Text {
+        /// Parameter that holds it.
+        name: &'static str,
+        /// What is wrong with it and what is allowed.
+        problem: String,
+    },
     /// A line of a list of metaballs cannot be read.
     #[error("line {line}: {problem}")]
     BallLine {

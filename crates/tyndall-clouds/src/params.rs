@@ -76,6 +76,14 @@ params! {
         /// Steps from one supply of vapour and activation to the next.
         supply_interval: u32 = 1, ["1", 1..=100, Linear], "paper section 3.2";
     }
+    text {
+        /// Painted map of 48 x 48 places that cover the grid, row after row from the south-west: letters from a (no vapour) over
+        /// k (as it is) to u (as in the middle of a bubble), each after the number of times that it stands there. Empty for none.
+        painted = "", "design";
+        /// Ellipsoids of humid air in place of the pattern's: east, north, height above the condensation level and three half
+        /// axes (m), from the grid's middle; a semicolon between ellipsoids. Empty leaves the layout to the pattern.
+        ellipsoids = "", "Dobashi et al. 2000";
+    }
 }
 
 params! {
@@ -156,6 +164,11 @@ impl CloudParams {
                 // Writing to a String cannot fail.
                 let _ = writeln!(text, "{group}.{}={value}", info.name);
             }
+            // An empty text counts as none, so that states from before there were texts are still taken up.
+            let texts = set.text_info().iter().enumerate().map(|(index, info)| (info.name, set.text(index)));
+            for (name, value) in texts.filter(|(_, value)| !value.is_empty()) {
+                let _ = writeln!(text, "{group}.{name}={value}");
+            }
         }
         fnv1a(text.as_bytes())
     }
@@ -187,6 +200,7 @@ mod tests {
         assert!(change(|params| params.matter.threshold += 0.1), "matter is only drawn");
         assert!(!change(|params| params.grid.seed += 1), "the seed");
         assert!(!change(|params| params.vapour.cover += 0.1), "vapour");
+        assert!(!change(|params| params.vapour.painted.push_str("2304u")), "paint");
         assert!(!change(|params| params.wind.floor_from_deg += 0.1), "wind");
     }
 

@@ -5,10 +5,13 @@ use tyndall_core::grid::Grid3;
 use crate::automaton::{Automaton, AutomatonConfig};
 use crate::ball_lattice::ball_density_into;
 use crate::density::CloudDensity;
-use crate::ellipsoids::{EllipsoidSupply, HumidEllipsoids};
+use crate::ellipsoid_list::parse_ellipsoids;
+use crate::ellipsoids::{Ellipsoid, EllipsoidSupply, HumidEllipsoids};
 use crate::error::{CloudError, in_range};
 use crate::metaballs::{Metaball, Metaballs};
 use crate::narrow::narrow;
+use crate::painted_map::PaintedMap;
+use crate::painted_vapour::{PaintedRange, PaintedVapour};
 use crate::params::CloudParams;
 use crate::probability::{Probabilities, ProbabilityLayer};
 use crate::smoothing::SmoothingWindow;
@@ -54,13 +57,18 @@ impl CloudSimulation {
             wind: wind_profile(params)?,
         };
         let mut automaton = Automaton::new(&config)?;
-        let ellipsoids = bubbles(params);
+        let ellipsoids = ellipsoids(params)?;
         let layer = |supply| HumidEllipsoids::new(size, grid.edges, u64::from(grid.seed), supply, &ellipsoids);
         let [start, humidity, activation] = [vapour.start_humidity, vapour.humidity, vapour.activation].map(narrow);
-        automaton.moisten(&[Box::new(layer(EllipsoidSupply { extinction: 0.0, humidity: start, activation })?)]);
+        let painted = |supply| painted_vapour(params, supply);
+        let at_start = EllipsoidSupply { extinction: 0.0, humidity: start, activation };
+        let mut first: Vec<Box<dyn ProbabilityLayer>> = vec![Box::new(layer(at_start)?)];
+        first.extend(painted(at_start)?);
+        automaton.moisten(&first);
         let outside = Probabilities { extinction: narrow(vapour.extinction_outside), ..Probabilities::default() };
         let supply = EllipsoidSupply { extinction: narrow(vapour.extinction), humidity, activation };
-        let stack: Vec<Box<dyn ProbabilityLayer>> = vec![Box::new(outside), Box::new(layer(supply)?)];
+        let mut stack: Vec<Box<dyn ProbabilityLayer>> = vec![Box::new(outside), Box::new(layer(supply)?)];
+        stack.extend(painted(supply)?);
         automaton.set_probabilities(stack);
         let window = SmoothingWindow::new(params.matter.smooth_cells, params.matter.smooth_steps)?;
         let density = CloudDensity::new(&automaton, window);
@@ -205,6 +213,32 @@ fn check(params: &CloudParams) -> Result<(), CloudError> {
     Ok(())
 }
 
+/// The ellipsoids of the list, or those of the pattern where there is none.
+fn ellipsoids(params: &CloudParams) -> Result<Vec<Ellipsoid>, CloudError> {
+    let listed = parse_ellipsoids(&params.vapour.ellipsoids)?;
+    Ok(if listed.is_empty() { bubbles(params) } else { listed.iter().map(|one| one.in_cells(params)).collect() })
+}
+
+/// The painted map's layer, if anything is painted.
+fn painted_vapour(
+    params: &CloudParams,
+    supply: EllipsoidSupply,
+) -> Result<Option<Box<dyn ProbabilityLayer>>, CloudError> {
+    let (grid, vapour) = (&params.grid, &params.vapour);
+    let map = PaintedMap::parse(&vapour.painted)?;
+    if map.is_blank() {
+        return Ok(None);
+    }
+    let heights_m = [vapour.base_m, vapour.base_m + vapour.bubble_height_m];
+    let range = PaintedRange {
+        supply,
+        dry_extinction: narrow(vapour.extinction_outside),
+        heights_cells: heights_m.map(|height| narrow(height / grid.cell_m)),
+    };
+    let levels = map.sampled([grid.cells_east, grid.cells_north].map(|cells| cells as usize));
+    Ok(Some(Box::new(PaintedVapour::new(levels, range, grid.edges))))
+}
+
 /// Wind in cells per step.
 fn wind_profile(params: &CloudParams) -> Result<WindProfile, CloudError> {
     let (wind, grid) = (&params.wind, &params.grid);
@@ -273,6 +307,38 @@ mod tests {
         let one = balls.balls[0];
         let want = BALL_MASS * f64::from(one.extinction_per_m) * f64::from(one.radius_m).powi(3);
         assert!((one.mass_m2() / want - 1.0).abs() < 1e-6, "mass of one ball");
+    }
+
+    #[test]
+    fn clouds_grow_where_vapour_is_painted_and_vanish_where_it_is_erased() {
+        let mut params = small(VapourPattern::FairWeather);
+        params.vapour.cover = 0.0;
+        params.wind.floor_speed_m_s = 0.0;
+        params.wind.ceiling_speed_m_s = 0.0;
+        let cover = |params: &CloudParams| CloudSimulation::new(params).unwrap().statistics().cover;
+        assert!(cover(&params) < 1e-9, "no bubbles, no clouds");
+        // The southern half full of vapour.
+        params.vapour.painted = "1152u1152k".to_owned();
+        let painted = cover(&params);
+        assert!((0.4..0.6).contains(&painted), "{painted}");
+        params.vapour.painted = "2304a".to_owned();
+        params.vapour.cover = 0.5;
+        assert!(cover(&params) < 1e-9, "erased everywhere");
+    }
+
+    #[test]
+    fn listed_ellipsoids_take_the_place_of_the_pattern() {
+        let mut params = small(VapourPattern::CumulusField);
+        params.wind.floor_speed_m_s = 0.0;
+        params.wind.ceiling_speed_m_s = 0.0;
+        params.vapour.ellipsoids = "1000 -600 0 500 500 600".to_owned();
+        let simulation = CloudSimulation::new(&params).unwrap();
+        let cld = crate::statistics::project(&simulation.automaton().fields().cld);
+        let covered = |x: usize, y: usize| cld[[x, y]];
+        assert!(covered(48 + 20, 48 - 12), "in its middle");
+        assert!(!covered(20, 70) && !covered(48, 80), "elsewhere");
+        params.vapour.ellipsoids = "1 2".to_owned();
+        assert!(CloudSimulation::new(&params).unwrap_err().to_string().contains("6 are needed"), "refused");
     }
 
     #[test]
