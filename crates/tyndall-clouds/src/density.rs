@@ -4,6 +4,7 @@
 //! along with every later wind, so that smoothing over time does not smear what the wind carries. Between two steps density
 //! is interpolated linearly, as the paper does, and each height is drawn at the place where the wind's exact displacement
 //! has it, a fraction of a cell from where its bits stand. Density lags behind the automaton by the window's reach in time.
+#![expect(clippy::inline_always, reason = "only what is inlined is compiled for the processor's wider instructions")]
 
 use std::collections::VecDeque;
 
@@ -135,23 +136,54 @@ fn add_moved(
     density: &mut Grid3<f32>,
 ) {
     let [nx, ny, _] = sums.size();
-    density.cells_mut().par_chunks_exact_mut(nx * ny).enumerate().for_each(|(z, plane)| {
+    let arch = pulp::Arch::new();
+    density.cells_mut().par_chunks_exact_mut(nx * ny).enumerate().for_each(|(z, cells)| {
         let sums = &sums.cells()[z * nx * ny..][..nx * ny];
         let [east, north] = place(z).map(Lerp::new);
-        if east.is_still() && north.is_still() {
-            plane.iter_mut().zip(sums).for_each(|(density, &sum)| *density += weight * f32::from(sum));
-            return;
+        arch.dispatch(MovedPlane { sums, size: [nx, ny], weight, edges, east, north, cells });
+    });
+}
+
+/// One height whose sums are added at another place.
+struct MovedPlane<'a> {
+    sums: &'a [u16],
+    /// [nx, ny].
+    size: [usize; 2],
+    weight: f32,
+    edges: Edges,
+    east: Lerp,
+    north: Lerp,
+    cells: &'a mut [f32],
+}
+
+impl pulp::WithSimd for MovedPlane<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _simd: S) {
+        if self.east.is_still() && self.north.is_still() {
+            let pairs = self.cells.iter_mut().zip(self.sums);
+            return pairs.for_each(|(density, &sum)| *density += self.weight * f32::from(sum));
         }
-        for (y, row) in plane.chunks_exact_mut(nx).enumerate() {
-            for (tap_y, weight_y) in north.taps() {
-                let Some(from_y) = east_or_north(y, tap_y, ny, edges) else { continue };
-                let from = &sums[from_y * nx..][..nx];
-                for (tap_x, weight_x) in east.taps() {
-                    add_row(from, tap_x, weight * weight_x * weight_y, edges, row);
+        let [nx, ny] = self.size;
+        // Two rows become one, and that one is moved: each number is read once.
+        let (mut line, mut moved) = (vec![0.0; nx], vec![0.0; nx + 1]);
+        for (y, row) in self.cells.chunks_exact_mut(nx).enumerate() {
+            line.fill(0.0);
+            for (tap, share) in self.north.taps() {
+                let Some(from) = east_or_north(y, tap, ny, self.edges) else { continue };
+                let weight = self.weight * share;
+                for (value, &sum) in line.iter_mut().zip(&self.sums[from * nx..][..nx]) {
+                    *value += weight * f32::from(sum);
                 }
             }
+            move_line(&line, self.east.whole, self.edges, &mut moved);
+            let [(_, here), (_, before)] = self.east.taps();
+            for (x, density) in row.iter_mut().enumerate() {
+                *density += here * moved[x + 1] + before * moved[x];
+            }
         }
-    });
+    }
 }
 
 /// The cell that is `shift` cells before `index`, if there is one.
@@ -161,20 +193,26 @@ fn east_or_north(index: usize, shift: i64, count: usize, edges: Edges) -> Option
     usize::try_from(place).ok().filter(|&place| place < count)
 }
 
-/// Adds a row moved by whole cells.
-fn add_row(from: &[u16], shift: i64, weight: f32, edges: Edges, row: &mut [f32]) {
-    let nx = row.len();
-    let distance = usize::try_from(shift.unsigned_abs()).unwrap_or(nx).min(nx);
-    let kept = nx - distance;
-    let (target, source, new) = if shift >= 0 { (distance, 0, 0) } else { (0, distance, kept) };
-    for (density, &sum) in row[target..target + kept].iter_mut().zip(&from[source..source + kept]) {
-        *density += weight * f32::from(sum);
-    }
+/// A row moved by whole cells, with the cell before its first in front; 0 where an open grid has none.
+#[inline(always)]
+fn move_line(line: &[f32], whole: i64, edges: Edges, moved: &mut [f32]) {
+    let count = i64::try_from(line.len()).unwrap_or(i64::MAX);
+    let first = -1 - whole;
     if edges == Edges::Wrap {
-        for (x, density) in row.iter_mut().enumerate().skip(new).take(distance) {
-            *density += east_or_north(x, shift, nx, edges).map_or(0.0, |x| weight * f32::from(from[x]));
+        let mut from = usize::try_from(first.rem_euclid(count)).unwrap_or(0);
+        let mut rest = moved;
+        while !rest.is_empty() {
+            let copied = rest.len().min(line.len() - from);
+            rest[..copied].copy_from_slice(&line[from..from + copied]);
+            (rest, from) = (&mut rest[copied..], 0);
         }
+        return;
     }
+    moved.fill(0.0);
+    // Cells `first..first + moved.len()` of the row, as far as there are such.
+    let [from, end] = [first, first + count + 1].map(|place| usize::try_from(place.clamp(0, count)).unwrap_or(0));
+    let target = usize::try_from((-first).clamp(0, count + 1)).unwrap_or(0);
+    moved[target..target + (end - from)].copy_from_slice(&line[from..end]);
 }
 
 /// A shift by a fraction of cells as two shifts by whole cells.
@@ -268,6 +306,23 @@ mod tests {
                 let inner = crate::grid_size::cells(size).filter(|c| c[..2].iter().all(|&i| (4..28).contains(&i)));
                 let jump = inner.map(|c| (begin[c] - f32::max(last[c], 0.0)).abs()).fold(0.0, f32::max);
                 assert!(jump < 1e-5, "jump of {jump} before step {step}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_is_moved_by_any_number_of_cells_in_open_and_in_wrapped_grids() {
+        let line: Vec<f32> = (1_u8..=5).map(f32::from).collect();
+        let wrap = |place: i64, edges| if edges == Edges::Wrap { place.rem_euclid(5) } else { place };
+        for whole in -13..=13_i64 {
+            for edges in [Edges::Open, Edges::Wrap] {
+                let mut moved = vec![9.0; 6];
+                move_line(&line, whole, edges, &mut moved);
+                for (place, found) in (-1..5_i64).zip(&moved) {
+                    let from = wrap(place - whole, edges);
+                    let expected = usize::try_from(from).ok().and_then(|from| line.get(from)).copied().unwrap_or(0.0);
+                    assert!((found - expected).abs() < 1e-9, "{whole} cells, {edges:?}, cell {place}: {found}");
+                }
             }
         }
     }
