@@ -15,6 +15,9 @@ const CLOUD_DARK_DIFFUSE: f32 = 0.01;
 /// Share of the reach over which clouds fade out.
 const CLOUD_FADE: f32 = 0.25;
 
+/// Where the line of sight begins: metres east and north of the origin, and the altitude.
+var<private> cloud_eye_m: vec3<f32>;
+
 struct CloudLight {
     sun: f32,           // 1/sr, of a sun of irradiance 1
     sky: f32,           // 1, of what a surface that faces up receives, over pi
@@ -27,7 +30,7 @@ struct CloudLight {
 /// Distances (m) between which a ray is among the cells and within reach; start >= end when it never is.
 fn cloud_span(mu: f32, limit_m: f32) -> vec2<f32> {
     let radius = atmosphere.planet_radius_m;
-    let h = sky_view.observer_altitude_m;
+    let h = cloud_eye_m.z;
     let ceiling = altitude_crossings(radius, h, mu, clouds.ceiling_m);
     let floor = altitude_crossings(radius, h, mu, clouds.floor_m);
     let is_below = h < clouds.floor_m;
@@ -51,7 +54,7 @@ fn cloud_phases(nu: f32) -> vec2<f32> {
 /// Gathers light along a ray up to `limit_m`; `jitter` 0..1 moves the samples within their steps.
 fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
     let radius = atmosphere.planet_radius_m;
-    let h0 = sky_view.observer_altitude_m;
+    let h0 = cloud_eye_m.z;
     let span = cloud_span(direction.z, limit_m);
     let phases = cloud_phases(sky_sun_cosine(direction));
     var light = CloudLight(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
@@ -63,7 +66,7 @@ fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
         let step = min(max(CLOUD_STEP_CELLS * clouds.cell_m, CLOUD_STEP_GROWTH * t), span.y - t);
         let at = t + jitter * step;
         let h = altitude_along(radius, h0, direction.z, at);
-        let place = cloud_place(frame.position_m.xy + at * direction.xy, h);
+        let place = cloud_place(cloud_eye_m.xy + at * direction.xy, h);
         let rise = (direction.z * (radius + h0) + at) / (radius + h);
         let steepest = max(max(abs(direction.x), abs(direction.y)), abs(rise));
         let skip = cloud_skip(place) * clouds.cell_m / steepest;

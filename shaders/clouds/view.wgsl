@@ -44,6 +44,7 @@ fn cloud_radiance(direction: vec3<f32>, light: CloudLight) -> vec3<f32> {
 fn cloud_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let pixel = vec2<u32>(position.xy);
     let direction = frame_direction(frame_plane(position));
+    cloud_eye_m = vec3<f32>(frame.position_m.xy, sky_view.observer_altitude_m) + frame_eye(frame_plane(position));
     let light = cloud_march(direction, cloud_limit(direction, pixel), cloud_jitter(pixel));
     if (light.transmittance > 0.9999) {
         discard;

@@ -1,12 +1,13 @@
 // The camera of a frame. Image-plane coordinates: (0, 0) in the centre, x right, y up, +-1 at the edges. A panorama is
-// equirectangular: x is the angle from forward towards right in half turns, y the elevation above them in right angles.
+// equirectangular: x is the angle from forward towards right in half turns, y the elevation above them in right angles. An
+// orthographic picture has parallel lines of sight that begin on a plane through the camera.
 // Uniform twin: tyndall_render::frame::gpu_data::Frame.
 
 struct Frame {
     right: vec3<f32>,          // 1, east-north-up
-    tan_half_width: f32,       // 1, tangent of half the horizontal field of view
+    tan_half_width: f32,       // 1, tangent of half the horizontal field of view; orthographic: m, half the width
     up: vec3<f32>,             // 1
-    tan_half_height: f32,      // 1
+    tan_half_height: f32,      // the same of the height
     forward: vec3<f32>,        // 1
     near_m: f32,               // reversed depth = near / planar distance
     position_m: vec3<f32>,     // east, north, altitude
@@ -20,12 +21,13 @@ struct Frame {
     levels: f32,               // steps of the output per unit: 255, or 65535
     contrast: f32,             // 1, exponent on the display value
     saturation: f32,           // 1, factor on the distance from grey
-    projection: u32,           // 0 perspective, 1 equirectangular
+    projection: u32,           // 0 perspective, 1 equirectangular, 2 orthographic
     largest: f32,              // frame value that the frame's format holds
 }
 @group(1) @binding(0) var<uniform> frame: Frame;
 
 const FRAME_EQUIRECTANGULAR: u32 = 1u;
+const FRAME_ORTHOGRAPHIC: u32 = 2u;
 const FRAME_PI: f32 = 3.1415926535;
 
 /// A triangle that covers the screen.
@@ -51,7 +53,18 @@ fn frame_direction(plane: vec2<f32>) -> vec3<f32> {
         let elevation = 0.5 * FRAME_PI * plane.y;
         return cos(elevation) * (cos(turn) * frame.forward + sin(turn) * frame.right) + sin(elevation) * frame.up;
     }
-    return normalize(frame.forward + plane.x * frame.tan_half_width * frame.right + plane.y * frame.tan_half_height * frame.up);
+    let across = select(frame_across(plane), vec3<f32>(0.0), frame.projection == FRAME_ORTHOGRAPHIC);
+    return normalize(frame.forward + across);
+}
+
+/// Way from the centre to a point of the image plane, at distance 1 in a perspective, in metres in an orthographic picture.
+fn frame_across(plane: vec2<f32>) -> vec3<f32> {
+    return plane.x * frame.tan_half_width * frame.right + plane.y * frame.tan_half_height * frame.up;
+}
+
+/// Where the line of sight of a point of the image plane begins [m], from the camera.
+fn frame_eye(plane: vec2<f32>) -> vec3<f32> {
+    return select(vec3<f32>(0.0), frame_across(plane), frame.projection == FRAME_ORTHOGRAPHIC);
 }
 
 /// Largest width and height (rad) of the pixel at a point of the image plane; of a perspective those at the centre, where
@@ -63,7 +76,9 @@ fn frame_pixel_extent(plane: vec2<f32>) -> vec2<f32> {
         let edge = max(abs(plane.y) - 0.5 * size.y, 0.0);
         return FRAME_PI * size * vec2<f32>(cos(0.5 * FRAME_PI * edge), 0.5);
     }
-    return size * vec2<f32>(frame.tan_half_width, frame.tan_half_height);
+    let extent = size * vec2<f32>(frame.tan_half_width, frame.tan_half_height);
+    // Parallel lines of sight have no angle between them.
+    return select(extent, vec2<f32>(1e-6), frame.projection == FRAME_ORTHOGRAPHIC);
 }
 
 /// Largest angle [rad] that the pixel at a point of the image plane covers: its diagonal.
@@ -76,7 +91,8 @@ fn frame_solid_angle(plane: vec2<f32>) -> f32 {
     if (frame.projection == FRAME_EQUIRECTANGULAR) {
         return cos(0.5 * FRAME_PI * plane.y);
     }
-    let slopes = plane * vec2<f32>(frame.tan_half_width, frame.tan_half_height);
+    let extent = vec2<f32>(frame.tan_half_width, frame.tan_half_height);
+    let slopes = select(plane * extent, vec2<f32>(0.0), frame.projection == FRAME_ORTHOGRAPHIC);
     return pow(1.0 + dot(slopes, slopes), -1.5);
 }
 

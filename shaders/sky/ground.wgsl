@@ -67,7 +67,8 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     let plane = frame_plane(position);
     let direction = frame_direction(plane);
     let radius = atmosphere.planet_radius_m;
-    let h = sky_view.observer_altitude_m;
+    let eye = frame_eye(plane);
+    let h = max(sky_view.observer_altitude_m + eye.z, 0.0);
     let t = distance_to_ground(radius, h, direction.z);
     if (t < 0.0) {
         discard;
@@ -75,7 +76,7 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     let nu = sky_sun_cosine(direction);
     let mu_sun = mu_along(radius, h, sky_view.sun_direction.z, nu, t, 0.0);
     let footprint_m = frame_pixel_angle(plane) * t / max(-direction.z, 1e-4);
-    let place = frame.position_m.xy + t * direction.xy;
+    let place = frame.position_m.xy + eye.xy + t * direction.xy;
     let shade = cloud_shade_at(place, 0.0);
     var light = ground_shaded(ground_sun_irradiance(mu_sun), ground_sky_irradiance(mu_sun), shade);
     if (moon.skylight == 1u) {

@@ -4,8 +4,8 @@
 //! except where all orders matter: the tables of the others take seconds on a software adapter.
 
 use tyndall_scene::{
-    AerosolInput, CloudFileHolds, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders,
-    OrdersDetail, Scene, SkyMode, SunPosition,
+    AerosolInput, CameraProjection, CloudFileHolds, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition,
+    Orders, OrdersDetail, Scene, SkyMode, SunPosition,
 };
 
 /// A scene and the parameters that are tried in it.
@@ -34,6 +34,7 @@ pub(crate) const ALL: &[Precondition] = &[
             ("camera.pitch_deg", None),
             ("camera.roll_deg", None),
             ("camera.field_of_view_deg", None),
+            ("camera.projection", None),
             ("sun.elevation_deg", None),
             ("sun.azimuth_deg", None),
             ("sun.position", None),
@@ -79,6 +80,7 @@ pub(crate) const ALL: &[Precondition] = &[
             ("atmosphere.ozone_du", None),
             ("atmosphere.ozone_altitude_km", None),
             ("atmosphere.ozone_half_width_km", None),
+            ("sky.kind", None),
             ("sky.mode", None),
             ("sky.table_elevations", Some(40.0)),
             ("sky.table_azimuths", Some(16.0)),
@@ -306,6 +308,17 @@ pub(crate) const ALL: &[Precondition] = &[
             ("cloud_wind.middle_speed_m_s", Some(20.0)),
             ("cloud_wind.middle_from_deg", Some(90.0)),
         ],
+    },
+    Precondition {
+        name: "an orthographic camera over squares",
+        prepare: |scene| {
+            manual(scene);
+            checker(scene);
+            scene.camera.projection = CameraProjection::Orthographic;
+            scene.camera.pitch_deg = -40.0;
+            scene.camera.width_m = 20.0;
+        },
+        parameters: &[("camera.width_m", Some(31.0))],
     },
     Precondition {
         name: "the automatic exposure",

@@ -1,8 +1,8 @@
 //! Which parameters have no effect at present, and why: the app shows those disabled.
 
 use tyndall_scene::{
-    AerosolInput, CloudFileHolds, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition, Orders, Scene,
-    SkyMode, SunPosition,
+    AerosolInput, CameraProjection, CloudFileHolds, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition,
+    Orders, Scene, SkyMode, SunPosition,
 };
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
@@ -15,6 +15,12 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
         ("haze", name) if name != "enabled" && !scene.haze.enabled => Some("There is no haze; switch Enabled on."),
         ("film", "ev100") if scene.film.exposure == ExposureMode::Auto => {
             Some("The exposure follows the picture; set Exposure to manual.")
+        }
+        ("camera", "field_of_view_deg") if scene.camera.projection == CameraProjection::Orthographic => {
+            Some("An orthographic picture has a width; set Projection to perspective.")
+        }
+        ("camera", "width_m") if scene.camera.projection == CameraProjection::Perspective => {
+            Some("A perspective has a field of view; set Projection to orthographic.")
         }
         ("ground", "tile_m") if scene.ground.pattern.name() == "plain" => {
             Some("The ground is plain; set Pattern to checker.")

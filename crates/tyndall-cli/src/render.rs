@@ -41,11 +41,13 @@ Examples:
   tyndall render dusk.toml -o d.png --set sun.elevation_deg=2 --set film.tone_map=aces
   tyndall render dusk.toml -o d.exr --adapter software --max-memory 4G
   tyndall render dusk.toml -o truth.png --reference --paths 256 --size 320x180
+  tyndall render clouds.toml -o clouds.npy --unit-sun
   tyndall render preset:cumulus -o 'sky-####.png' --frames 0-239 --fps 24 --speed 60
 
 Units are in the names of the parameters (altitude_m, elevation_deg);
 `tyndall params` lists them all. EXR holds the light of the scene, linear
-Rec.709 in cd/m2, with depth in metres as Z; PNG and JPEG hold the developed
+Rec.709 in cd/m2, with depth in metres as Z; NPY the same light as an array
+of rows, columns and channels in 32-bit floats; PNG and JPEG hold the developed
 picture in sRGB.";
 
 /// What `tyndall render` takes.
@@ -55,7 +57,7 @@ pub struct RenderArguments {
     /// What to draw.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Picture file; its ending decides the format: .png, .exr, .jpg
+    /// Picture file; its ending decides the format: .png, .exr, .npy, .jpg
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Size of the picture in pixels, in place of the scene's
@@ -92,6 +94,10 @@ pub struct RenderArguments {
     /// How to report progress
     #[arg(long, value_name = "READER", value_enum, default_value_t)]
     pub progress: ProgressFormat,
+    /// Light over the sun's irradiance above the air, channel by channel, in place of cd/m2: what renderers give under a sun
+    /// of irradiance 1; for EXR and NPY files
+    #[arg(long, conflicts_with = "frames")]
+    pub unit_sun: bool,
     /// How to store the picture.
     #[command(flatten)]
     pub format: FormatArguments,
@@ -116,11 +122,12 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
     if let Some(range) = arguments.frames {
         return sequence::run(arguments, (range, &scene), format, progress);
     }
+    let unit = unit_of(arguments, format, &scene)?;
     check_writable(&arguments.output)?;
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
     let state = arguments.start.load(&scene, progress)?;
     let state = state.as_ref();
-    let frame = if arguments.reference {
+    let mut frame = if arguments.reference {
         reference::frame(&scene, format, (arguments.paths, arguments.seed), &interrupt, progress)?
     } else {
         let options = arguments.device.options();
@@ -129,6 +136,9 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
         job.run().map_err(|failure| arguments.start.blame(failure))?
     };
 
+    if let (Some(unit), frame::Pixels::Light(picture)) = (unit, &mut frame.pixels) {
+        picture.rgba.iter_mut().for_each(|pixel| unit.iter().zip(pixel).for_each(|(unit, value)| *value /= unit));
+    }
     progress.stage(Stage::File)?;
     interrupt.check()?;
     let metadata = header::metadata(&scene, state, &frame);
@@ -145,6 +155,23 @@ fn scene_of(arguments: &RenderArguments) -> Result<Scene, Failure> {
     }
     scene.check()?;
     Ok(scene)
+}
+
+/// What the picture's light is divided by: the sun's irradiance above the air (lx) in each channel.
+fn unit_of(arguments: &RenderArguments, format: OutputFormat, scene: &Scene) -> Result<Option<[f32; 3]>, Failure> {
+    if !arguments.unit_sun {
+        return Ok(None);
+    }
+    if !matches!(format, OutputFormat::Exr(..) | OutputFormat::Npy) {
+        let file = arguments.output.display();
+        return Err(Failure::Usage(format!("--unit-sun concerns EXR and NPY files only, and {file} is none")));
+    }
+    let sun = tyndall_render::environment::sun_above_air(scene)?;
+    if sun.iter().any(|channel| *channel <= 0.0) {
+        return Err(Failure::Usage("--unit-sun needs a sun, and sun.brightness = 0 puts it out".to_owned()));
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "pictures are f32")]
+    Ok(Some(sun.map(|channel| channel as f32)))
 }
 
 fn report(

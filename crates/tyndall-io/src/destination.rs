@@ -18,6 +18,12 @@ impl<'a> Destination<'a> {
         Self { path: path.as_ref(), cancel: None }
     }
 
+    /// The file.
+    #[must_use]
+    pub fn path(&self) -> &'a Path {
+        self.path
+    }
+
     /// Stops soon after `cancel` becomes true, and leaves nothing behind.
     #[must_use]
     pub fn cancelled_by(self, cancel: &'a AtomicBool) -> Self {

@@ -54,11 +54,12 @@ pub fn frame_uniform(
     let expected_gain = gain_from_ev100(expected_ev100(scene.sun_direction()?.elevation_rad));
     let compensation = film.compensation_ev.exp2();
     let aspect = f64::from(size_px[0]) / f64::from(size_px[1]);
+    let half_height = camera.orthographic_m.map_or(camera.tan_half_view, |width_m| 0.5 * width_m / aspect);
     Ok(gpu_data::Frame {
         right: camera.right.as_vec3().to_array(),
-        tan_half_width: (camera.tan_half_view * aspect) as f32,
+        tan_half_width: (half_height * aspect) as f32,
         up: camera.up.as_vec3().to_array(),
-        tan_half_height: camera.tan_half_view as f32,
+        tan_half_height: half_height as f32,
         forward: camera.forward.as_vec3().to_array(),
         near_m: NEAR_M as f32,
         position_m: camera.position.as_vec3().to_array(),
@@ -79,7 +80,7 @@ pub fn frame_uniform(
         },
         contrast: film.contrast as f32,
         saturation: film.saturation as f32,
-        projection: u32::from(view == View::Panorama),
+        projection: if camera.orthographic_m.is_some() { 2 } else { u32::from(view == View::Panorama) },
         largest: match config.frame {
             FrameFormat::Half => LARGEST_HALF,
             FrameFormat::Float => f32::MAX,

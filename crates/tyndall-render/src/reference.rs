@@ -55,7 +55,7 @@ pub fn render_reference(
     for solar in &mut atmosphere.solar_irradiance_w_m2_nm {
         *solar *= scene.sun.brightness;
     }
-    let (radius_m, h_m) = (atmosphere.planet_radius_m, scene.camera.altitude_m);
+    let radius_m = atmosphere.planet_radius_m;
     let walks = PictureWalks::new(&atmosphere)?;
     let (camera, sun) = (CameraFrame::new(&scene.camera), scene.sun_direction()?.unit());
     let size_px = [scene.image.width_px, scene.image.height_px];
@@ -65,10 +65,11 @@ pub fn render_reference(
         if !progress(f64::from(y) / f64::from(size_px[1])) {
             return Ok(None);
         }
-        let directions = (0..size_px[0])
-            .map(|x| camera.ray(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5), UVec2::from_array(size_px)));
+        let points = (0..size_px[0]).map(|x| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5));
         let mut rays = Vec::with_capacity(size_px[0] as usize);
-        for direction in directions {
+        for point in points {
+            let direction = camera.ray(point, UVec2::from_array(size_px));
+            let h_m = camera.eye(point, UVec2::from_array(size_px)).z.max(0.0);
             rays.push(Ray { h_m, mu: direction.z, mu_sun: sun.z, nu: direction.dot(sun).clamp(-1.0, 1.0) });
             let ground_m = distance_to_ground(radius_m, h_m, direction.z);
             depth_m.push(ground_m.map_or(SKY_DEPTH_M, |t_m| planar_m(t_m * direction.dot(camera.forward))));

@@ -277,6 +277,10 @@ fn pixel_angle(frame: &gpu_data::Frame) -> f64 {
     if frame.projection == 1 {
         return std::f64::consts::PI * (2.0 / width).max(1.0 / height);
     }
+    if frame.projection == 2 {
+        // No angle: all lines of sight are parallel, and no star is drawn.
+        return 1e-3;
+    }
     (2.0 * f64::from(frame.tan_half_width) / width).max(2.0 * f64::from(frame.tan_half_height) / height)
 }
 

@@ -76,7 +76,7 @@ impl CubeFace {
             Self::PosZ => (DVec3::Y, DVec3::Z),
             Self::NegZ => (DVec3::NEG_Y, DVec3::Z),
         };
-        CameraFrame { position, right: forward.cross(up), up, forward, tan_half_view: 1.0 }
+        CameraFrame { position, right: forward.cross(up), up, forward, tan_half_view: 1.0, orthographic_m: None }
     }
 
     /// The face that a direction (east, north, up) meets, and where: to the right and upwards, -1 to 1.

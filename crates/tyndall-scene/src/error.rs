@@ -84,6 +84,12 @@ pub enum SceneError {
     /// Steps were asked of a scene in which nothing moves.
     #[error("nothing in the scene goes on in steps; `clouds.kind` = \"automaton\" does")]
     NothingMoves,
+    /// A landscape before an orthographic camera.
+    #[error(
+        "camera.projection = \"orthographic\" shows no landscape; set landscape.kind to \"none\" or the projection to \
+         \"perspective\""
+    )]
+    OrthographicLandscape,
     /// The algorithm for the sun's position refused its input.
     #[error("the sun's position cannot be computed: {reason}")]
     SunPosition {
@@ -205,6 +211,7 @@ impl SceneError {
             Self::CloudCells { .. } => {
                 ["cloud_grid.cells_east", "cloud_grid.cells_north", "cloud_grid.cells_up"].map(str::to_owned).to_vec()
             }
+            Self::OrthographicLandscape => ["camera.projection", "landscape.kind"].map(str::to_owned).to_vec(),
             Self::SunPosition { .. } => vec!["sun.position".to_owned()],
             Self::NothingMoves => vec!["clouds.kind".to_owned()],
             Self::FormatMissing | Self::FormatUnknown { .. } => vec!["format".to_owned()],

@@ -9,10 +9,11 @@ use tyndall_scattering::refraction::RefractiveAir;
 
 use crate::landscape::Landscape;
 use crate::{
-    AerosolInput, Atmosphere, AtmosphereParams, CameraParams, CloudGridParams, CloudKind, CloudMatterParams,
-    CloudParams, CloudVapourParams, CloudWindParams, CloudsParams, FilmParams, GroundParams, HazeParams, ImageParams,
-    LandscapeParams, MoonParams, SceneError, SceneHash, SkyParams, StarsParams, SunDirection, SunParams, astronomy,
-    astronomy::MoonState, brief::brief, nearest::nearest, sun,
+    AerosolInput, Atmosphere, AtmosphereParams, CameraParams, CameraProjection, CloudGridParams, CloudKind,
+    CloudMatterParams, CloudParams, CloudVapourParams, CloudWindParams, CloudsParams, FilmParams, GroundParams,
+    HazeParams, ImageParams, LandscapeKind, LandscapeParams, MoonParams, MoonPosition, Orders, SceneError, SceneHash,
+    SkyKind, SkyMode, SkyParams, StarsParams, SunDirection, SunParams, astronomy, astronomy::MoonState, brief::brief,
+    nearest::nearest, sun,
 };
 
 /// Most cells of the clouds of a scene: a frame needs some 60 bytes for each.
@@ -157,6 +158,9 @@ impl Scene {
             return Err(SceneError::VisibilityBeyondAir { visibility_km, clearest_km });
         }
         self.check_clouds()?;
+        if self.camera.projection == CameraProjection::Orthographic && self.landscape.kind != LandscapeKind::None {
+            return Err(SceneError::OrthographicLandscape);
+        }
         self.moon().map(|_state| ())
     }
 
@@ -227,7 +231,29 @@ impl Scene {
     pub fn grounded(&self) -> Self {
         let mut scene = self.clone();
         scene.camera.altitude_m += Landscape::new(&self.landscape).ground_m(self.camera.x_m, self.camera.y_m);
+        if scene.sky.kind == SkyKind::Black {
+            scene.take_air_away();
+        }
+        if scene.camera.projection == CameraProjection::Orthographic {
+            // One direction of view: a disc would fill the picture.
+            (scene.sun.disc, scene.moon.disc, scene.stars.visible) = (false, false, false);
+            scene.sky.mode = SkyMode::PerPixel;
+        }
         scene
+    }
+
+    /// Leaves the sun and what it shines on.
+    fn take_air_away(&mut self) {
+        let air = &mut self.atmosphere;
+        (air.air_density, air.aerosol_input, air.aerosol_optical_depth) = (0.0, AerosolInput::OpticalDepth, 0.0);
+        air.ozone_du = 0.0;
+        self.haze.enabled = false;
+        self.sky.orders = Orders::Single;
+        self.sun.disc = false;
+        self.moon.position = MoonPosition::None;
+        (self.stars.visible, self.stars.airglow_cd_m2) = (false, 0.0);
+        self.ground.material = tyndall_scattering::params::GroundMaterial::Colour;
+        (self.ground.red, self.ground.green, self.ground.blue) = (0.0, 0.0, 0.0);
     }
 
     /// Hash of all parameters: what a picture's header stores to tell whether the picture is still that of its scene.

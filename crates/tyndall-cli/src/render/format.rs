@@ -56,6 +56,8 @@ pub enum OutputFormat {
     Jpeg,
     /// Light of the scene and depth.
     Exr(Precision, Compression),
+    /// Light of the scene as an array of rows, columns and three channels.
+    Npy,
 }
 
 impl OutputFormat {
@@ -63,7 +65,7 @@ impl OutputFormat {
     pub(crate) fn exr_options(self) -> ExrOptions {
         match self {
             Self::Exr(precision, compression) => ExrOptions { precision, compression, ..ExrOptions::default() },
-            Self::Png(_) | Self::Jpeg => ExrOptions::default(),
+            Self::Png(_) | Self::Jpeg | Self::Npy => ExrOptions::default(),
         }
     }
 }
@@ -79,8 +81,9 @@ impl FormatArguments {
             Some("png") => OutputFormat::Png(self.bits.unwrap_or(Bits::Eight)),
             Some("jpg" | "jpeg") => OutputFormat::Jpeg,
             Some("exr") => OutputFormat::Exr(self.precision(), self.exr_compression()),
+            Some("npy") => OutputFormat::Npy,
             _ => {
-                let sentence = "the file's ending decides its format and must be .png, .exr, .jpg or .jpeg";
+                let sentence = "the file's ending decides its format and must be .png, .exr, .npy, .jpg or .jpeg";
                 return Err(Failure::Usage(format!("cannot write {}: {sentence}", path.display())));
             }
         };
@@ -137,6 +140,7 @@ mod tests {
             ("a.b/C.PNG", OutputFormat::Png(Bits::Eight)),
             ("a.jpeg", OutputFormat::Jpeg),
             ("a.jpg", OutputFormat::Jpeg),
+            ("a.npy", OutputFormat::Npy),
             ("a.exr", OutputFormat::Exr(Precision::Half, Compression::Zips)),
         ] {
             assert_eq!(format(file, none).unwrap(), expected, "{file}");
@@ -147,7 +151,7 @@ mod tests {
     fn other_endings_are_refused_with_those_that_are_known() {
         for file in ["a", "a.tiff", "png", "a.png.", ".png"] {
             let sentence = format(file, FormatArguments::default()).expect_err(file).to_string();
-            assert!(sentence.contains(".png, .exr, .jpg or .jpeg"), "{sentence}");
+            assert!(sentence.contains(".png, .exr, .npy, .jpg or .jpeg"), "{sentence}");
         }
     }
 

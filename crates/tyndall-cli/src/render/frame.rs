@@ -87,7 +87,7 @@ pub(crate) fn read(gpu: &Gpu, target: &FrameTarget, format: OutputFormat) -> Res
     Ok(match format {
         OutputFormat::Png(Bits::Eight) | OutputFormat::Jpeg => Pixels::Eight(target.read_picture8(gpu)?),
         OutputFormat::Png(Bits::Sixteen) => Pixels::Sixteen(target.read_picture16(gpu)?),
-        OutputFormat::Exr(..) => Pixels::Light(Picture {
+        OutputFormat::Exr(..) | OutputFormat::Npy => Pixels::Light(Picture {
             size_px: target.size_px(),
             rgba: target.read_radiance(gpu)?,
             depth_m: Some(target.read_depth_m(gpu)?),
@@ -118,7 +118,9 @@ pub(crate) fn config(format: OutputFormat) -> RendererConfig {
         OutputFormat::Png(Bits::Sixteen) => {
             RendererConfig { frame: FrameFormat::Float, picture: PictureFormat::Sixteen }
         }
-        OutputFormat::Exr(..) => RendererConfig { frame: FrameFormat::Float, picture: PictureFormat::Eight },
+        OutputFormat::Exr(..) | OutputFormat::Npy => {
+            RendererConfig { frame: FrameFormat::Float, picture: PictureFormat::Eight }
+        }
     }
 }
 

@@ -29,7 +29,7 @@ pub(crate) fn check_budget(
 fn read_back_bytes_per_px(format: OutputFormat) -> u64 {
     match format {
         OutputFormat::Png(Bits::Eight) | OutputFormat::Jpeg => 4,
-        OutputFormat::Png(Bits::Sixteen) | OutputFormat::Exr(..) => 16,
+        OutputFormat::Png(Bits::Sixteen) | OutputFormat::Exr(..) | OutputFormat::Npy => 16,
     }
 }
 

@@ -42,7 +42,7 @@ pub(super) fn frame(
 fn pixels(picture: ReferencePicture, film: &ExposedFilm<'_>, format: OutputFormat) -> Pixels {
     let ReferencePicture { size_px, rgba, depth_m } = picture;
     match format {
-        OutputFormat::Exr(..) => Pixels::Light(Picture { size_px, rgba, depth_m: Some(depth_m) }),
+        OutputFormat::Exr(..) | OutputFormat::Npy => Pixels::Light(Picture { size_px, rgba, depth_m: Some(depth_m) }),
         OutputFormat::Png(Bits::Sixteen) => Pixels::Sixteen(developed(&rgba, size_px, film, f64::from(u16::MAX), word)),
         OutputFormat::Png(Bits::Eight) | OutputFormat::Jpeg => {
             Pixels::Eight(developed(&rgba, size_px, film, f64::from(u8::MAX), byte))

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use image::ExtendedColorType;
 use image::codecs::jpeg::JpegEncoder;
+use tyndall_core::array::{Array, ArrayData};
 use tyndall_io::atomic::write_atomically;
-use tyndall_io::{Destination, IoError, PictureMetadata, write_exr, write_png8, write_png16};
+use tyndall_io::{Destination, IoError, Picture, PictureMetadata, write_exr, write_npy, write_png8, write_png16};
 
 use super::format::OutputFormat;
 use super::frame::{Frame, Pixels};
@@ -52,6 +53,7 @@ fn pixels_to_file(
     metadata: &PictureMetadata,
 ) -> Result<Written, IoError> {
     let bytes = match &frame.pixels {
+        Pixels::Light(picture) if format == OutputFormat::Npy => write_light_npy(destination, picture)?,
         Pixels::Light(picture) => {
             let report = write_exr(destination, picture, metadata, &format.exr_options())?;
             return Ok(Written {
@@ -65,6 +67,19 @@ fn pixels_to_file(
         Pixels::Sixteen(rgba) => write_png16(destination, frame.size_px, rgba, metadata)?,
     };
     Ok(Written { bytes, ..Written::default() })
+}
+
+/// Rows, columns and the channels red, green and blue, in 32-bit floats; row 0 is on top.
+fn write_light_npy(destination: Destination<'_>, picture: &Picture) -> Result<u64, IoError> {
+    let path = destination.path();
+    let [columns, rows] = picture.size_px.map(|side| side as usize);
+    // The first index runs fastest in an array, and rows are the first.
+    let value = |index: usize| picture.rgba[index % rows * columns + index / rows % columns][index / (rows * columns)];
+    let values = (0..3 * rows * columns).map(value).collect();
+    if let Some(array) = Array::new(vec![rows, columns, 3], ArrayData::F32(values)) {
+        write_npy(destination, &array)?;
+    }
+    std::fs::metadata(path).map(|file| file.len()).map_err(|error| IoError::from_write(path, error))
 }
 
 /// JPEG without metadata, for web pages.

@@ -13,6 +13,7 @@ pub mod cube;
 mod sun_light;
 mod unit;
 
+use tyndall_core::spectrum::rec709_from_spectrum;
 use tyndall_gpu::Gpu;
 use tyndall_scene::{LandscapeKind, Scene, SkyMode};
 
@@ -26,6 +27,15 @@ const METER_WIDTH_PX: u32 = 192;
 
 /// Narrowest panorama: four pixels around, two from the zenith to the nadir.
 pub const PANORAMA_WIDTH_MIN_PX: u32 = 4;
+
+/// Irradiance (lx, linear Rec.709) of the sun above the air, on a surface that faces it: what clouds in a black sky receive.
+///
+/// # Errors
+/// When the atmosphere's values do not fit together.
+pub fn sun_above_air(scene: &Scene) -> Result<[f64; 3], RenderError> {
+    let solar = scene.model().coefficients()?.solar_irradiance_w_m2_nm;
+    Ok(rec709_from_spectrum(&solar).map(|channel| channel * scene.sun.brightness))
+}
 
 /// What lies below the horizon of a panorama.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4, UVec2};
 
 pub use motion::{look, move_local, orbit};
 
-use crate::CameraParams;
+use crate::{CameraParams, CameraProjection};
 
 /// Distance of the near plane. Nothing of a scene is closer to the camera than this, which is half of its lowest altitude.
 pub const NEAR_M: f64 = 0.05;
@@ -27,6 +27,8 @@ pub struct CameraFrame {
     pub forward: DVec3,
     /// Tangent of half the vertical field of view.
     pub tan_half_view: f64,
+    /// Width (m) of what an orthographic picture shows; `None` for a perspective.
+    pub orthographic_m: Option<f64>,
 }
 
 impl CameraFrame {
@@ -45,23 +47,37 @@ impl CameraFrame {
             up: level_up * cos_roll + level_right * sin_roll,
             forward,
             tan_half_view: (camera.field_of_view_deg / 2.0).to_radians().tan(),
+            orthographic_m: (camera.projection == CameraProjection::Orthographic).then_some(camera.width_m),
         }
     }
 
-    /// Unit vector from the camera through a point of the picture. Points count in pixels from the upper left corner:
+    /// Unit vector of view at a point of the picture. Points count in pixels from the upper left corner:
     /// the centre of the first pixel is (0.5, 0.5).
     #[must_use]
     pub fn ray(&self, point_px: DVec2, size_px: UVec2) -> DVec3 {
+        if self.orthographic_m.is_some() {
+            return self.forward;
+        }
         let centred = (point_px - size_px.as_dvec2() / 2.0) * self.view_per_pixel(size_px);
         (self.forward + self.right * centred.x - self.up * centred.y).normalize()
     }
 
-    /// Point of the picture in which a direction appears, the inverse of [`CameraFrame::ray`]; `None` behind the camera.
+    /// Where the line of sight of a point of the picture begins (m): the camera, or its plane when it is orthographic.
+    #[must_use]
+    pub fn eye(&self, point_px: DVec2, size_px: UVec2) -> DVec3 {
+        let metres_per_pixel = self.orthographic_m.map_or(0.0, |width_m| width_m / f64::from(size_px.x));
+        let centred = (point_px - size_px.as_dvec2() / 2.0) * metres_per_pixel;
+        self.position + self.right * centred.x - self.up * centred.y
+    }
+
+    /// Point of the picture in which a direction appears, the inverse of [`CameraFrame::ray`]; `None` behind the camera, and
+    /// for an orthographic one, which sees one direction everywhere.
     #[must_use]
     pub fn point_px(&self, direction: DVec3, size_px: UVec2) -> Option<DVec2> {
         let depth = direction.dot(self.forward);
         let on_plane = DVec2::new(direction.dot(self.right), -direction.dot(self.up)) / depth;
-        (depth > 0.0).then(|| on_plane / self.view_per_pixel(size_px) + size_px.as_dvec2() / 2.0)
+        (depth > 0.0 && self.orthographic_m.is_none())
+            .then(|| on_plane / self.view_per_pixel(size_px) + size_px.as_dvec2() / 2.0)
     }
 
     /// Width of a pixel on the plane at distance 1.
@@ -76,7 +92,7 @@ impl CameraFrame {
         DMat4::from_cols(rows[0], rows[1], rows[2], DVec4::W).transpose()
     }
 
-    /// View to clip space, reversed and without a far plane: depth is [`NEAR_M`] / distance along the view.
+    /// View to clip space of a perspective, reversed and without a far plane: depth is [`NEAR_M`] / distance along the view.
     #[must_use]
     pub fn clip_from_view(&self, width_over_height: f64) -> DMat4 {
         let scale = 1.0 / self.tan_half_view;

@@ -14,7 +14,8 @@ fn any_camera() -> impl Strategy<Value = CameraParams> {
     let position = (-1e4..1e4, -1e4..1e4, 0.1..1e5);
     let angles = (-360.0..=360.0, -90.0..=90.0, -180.0..=180.0, 1.0..=170.0);
     (position, angles).prop_map(|((x_m, y_m, altitude_m), (heading_deg, pitch_deg, roll_deg, field_of_view_deg))| {
-        CameraParams { x_m, y_m, altitude_m, heading_deg, pitch_deg, roll_deg, field_of_view_deg }
+        let pinhole = CameraParams::default();
+        CameraParams { x_m, y_m, altitude_m, heading_deg, pitch_deg, roll_deg, field_of_view_deg, ..pinhole }
     })
 }
 
@@ -168,4 +169,25 @@ fn the_pitch_stops_at_the_zenith_and_the_heading_goes_round() {
     let camera = CameraParams { heading_deg: 170.0, ..CameraParams::default() };
     let turned = look(&camera, 20.0, 500.0);
     assert_eq!((turned.heading_deg, turned.pitch_deg), (-170.0, 90.0), "{turned:?}");
+}
+
+#[test]
+fn an_orthographic_camera_sees_one_direction_from_a_plane_of_its_width() {
+    let camera = CameraParams {
+        projection: CameraProjection::Orthographic,
+        width_m: 80.0,
+        x_m: 3.0,
+        altitude_m: 50.0,
+        pitch_deg: 0.0,
+        ..CameraParams::default()
+    };
+    let (frame, size) = (CameraFrame::new(&camera), UVec2::new(40, 20));
+    for point in [DVec2::new(0.5, 0.5), DVec2::new(20.0, 10.0), DVec2::new(39.5, 3.0)] {
+        assert!((frame.ray(point, size) - DVec3::Y).length() < 1e-12, "north at {point}");
+        let wanted = DVec3::new(3.0 + 2.0 * (point.x - 20.0), 0.0, 50.0 - 2.0 * (point.y - 10.0));
+        assert!((frame.eye(point, size) - wanted).length() < 1e-12, "two metres a pixel at {point}");
+    }
+    assert_eq!(frame.point_px(DVec3::Y, size), None, "a direction is everywhere or nowhere");
+    let pinhole = CameraFrame::new(&CameraParams { x_m: 3.0, ..CameraParams::default() });
+    assert!((pinhole.eye(DVec2::ZERO, size) - pinhole.position).length() < 1e-12, "one point");
 }

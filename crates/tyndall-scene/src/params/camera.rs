@@ -1,9 +1,19 @@
 //! Where the camera stands and looks.
 
-use tyndall_core::params;
+use tyndall_core::{choices, params};
+
+choices! {
+    /// How the camera makes a picture of the world.
+    pub enum CameraProjection {
+        /// Through a pinhole: what is far is small.
+        Perspective = "perspective",
+        /// Along parallel lines of sight, from infinitely far away: what is far is as large as what is near.
+        Orthographic = "orthographic",
+    }
+}
 
 params! {
-    /// A pinhole camera near the ground. [`crate::camera`] has its axes and matrices.
+    /// A camera near the ground. [`crate::camera`] has its axes and matrices.
     pub struct CameraParams {
         /// Position towards the east.
         x_m: f64 = 0.0, ["m", -1000000.0..=1000000.0, Linear], "east of the scene's origin";
@@ -17,7 +27,12 @@ params! {
         pitch_deg: f64 = 10.0, ["deg", -90.0..=90.0, Linear], "upwards from the horizon";
         /// Turn about the direction of view; a positive angle lowers the camera's right side.
         roll_deg: f64 = 0.0, ["deg", -180.0..=180.0, Linear], "clockwise seen from behind the camera";
-        /// Angle between the lower and the upper edge of the picture.
+        /// Angle between the lower and the upper edge of the picture. Used by the perspective projection.
         field_of_view_deg: f64 = 60.0, ["deg", 1.0..=170.0, Linear], "pinhole camera, vertical";
+        /// How the world becomes a picture. An orthographic picture has one direction of view: the sky in it has one colour, and
+        /// neither discs nor stars; it shows clouds and level ground, and no landscape.
+        projection: CameraProjection = CameraProjection::Perspective, "scene convention";
+        /// Width of what an orthographic picture shows. Used by the orthographic projection.
+        width_m: f64 = 1000.0, ["m", 0.1..=1000000.0, Log], "across the direction of view";
     }
 }

@@ -51,9 +51,9 @@ params! {
         /// Where in its cell the metaball of a file's grid stands, along each axis; 0.5 is the middle. Used when the file holds
         /// balls.
         file_ball_place: f64 = 0.5, ["1", 0.0..=1.0, Linear], "scene convention";
-        /// Samples of the cloud along each side of a cell of a file's grid. Raise it when the cells of balls show. Used when
-        /// the file holds balls.
-        file_samples: u32 = 1, ["1", 1..=4, Linear], "design";
+        /// Samples of the cloud along each side of a cell of a file's grid: two are enough to show balls of two cells as they
+        /// are (57 dB against a march), with one they blur (36 dB). Used when the file holds balls.
+        file_samples: u32 = 2, ["1", 1..=4, Linear], "design";
     }
     text {
         /// The file that the clouds come from, relative to the scene's file: a grid (.npy, .npz) of bytes, 16-bit numbers (both

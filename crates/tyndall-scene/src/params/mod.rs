@@ -10,12 +10,12 @@ mod sky;
 mod stars;
 mod sun;
 
-pub use camera::CameraParams;
+pub use camera::{CameraParams, CameraProjection};
 pub use clouds::{CloudFileHolds, CloudKind, CloudsParams};
 pub use film::{ExposureMode, FilmParams, ToneMap};
 pub use image::ImageParams;
 pub use landscape::{LandscapeKind, LandscapeParams};
 pub use moon::{MoonParams, MoonPhase, MoonPosition};
-pub use sky::{Orders, OrdersDetail, SkyMode, SkyParams};
+pub use sky::{Orders, OrdersDetail, SkyKind, SkyMode, SkyParams};
 pub use stars::StarsParams;
 pub use sun::{SunParams, SunPosition};

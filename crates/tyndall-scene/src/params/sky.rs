@@ -3,6 +3,16 @@
 use tyndall_core::{choices, params};
 
 choices! {
+    /// What surrounds everything.
+    pub enum SkyKind {
+        /// The atmosphere, lit by sun and moon, with stars behind it.
+        Air = "air",
+        /// Nothing: no air, no haze, no stars and no ground, only the sun's light on clouds.
+        Black = "black",
+    }
+}
+
+choices! {
     /// Where the colour of the sky is evaluated.
     pub enum SkyMode {
         /// At every pixel of the picture.
@@ -37,6 +47,9 @@ choices! {
 params! {
     /// The sky's method and its resolution. The defaults suit every scene; see each line for when to change it.
     pub struct SkyParams {
+        /// What surrounds everything. Before a black sky without air or ground clouds are lit by the sun alone, as in
+        /// pictures that renderers are compared by.
+        kind: SkyKind = SkyKind::Air, "scene convention";
         /// Where the colour is evaluated: at every pixel, or as in the paper at the vertices of a dome.
         mode: SkyMode = SkyMode::PerPixel, "paper section 2; Hillaire 2020";
         /// Whether light counts that was scattered once, as in the paper, twice as its reference 7 has it (from eight directions, for air and sky; the ground and what stands on it are lit as by one), or any number of times, as in nature. Random walks (render --reference, validate) always count all.

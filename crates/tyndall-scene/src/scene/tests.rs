@@ -171,3 +171,19 @@ fn clouds_of_more_cells_than_a_picture_takes_are_refused_and_none_are_not() {
     scene.cloud_grid.cells_east = 1024;
     assert!(scene.check().is_ok() && scene.cloud_params().is_some(), "just as many as allowed");
 }
+
+#[test]
+fn an_orthographic_camera_before_a_landscape_is_refused_and_a_black_sky_has_no_air() {
+    let mut scene = Scene::default();
+    scene.set_text("camera.projection", "orthographic").unwrap();
+    scene.check().unwrap();
+    scene.set_text("landscape.kind", "hills").unwrap();
+    let refused = scene.check().unwrap_err();
+    assert_eq!(refused.field().as_deref(), Some("camera.projection"), "{refused}");
+    let mut scene = Scene::default();
+    scene.set_text("sky.kind", "black").unwrap();
+    let black = scene.grounded();
+    let air = &black.atmosphere;
+    assert!((air.air_density + air.aerosol_optical_depth + air.ozone_du).abs() < 1e-12, "nothing that scatters");
+    assert!(scene.atmosphere.air_density > 0.0, "the scene itself keeps its air");
+}
