@@ -1,7 +1,9 @@
-//! Times the CPU side: exact integrals against tables, sand automata, and work on one thread against all.
+//! Times the CPU side: exact integrals against tables, sand automata, and work on one thread against all; and the sand
+//! automata on every adapter.
 
 mod clouds;
 mod dunes;
+mod gpu_sand;
 mod lookups;
 mod naive_clouds;
 mod tables;
@@ -53,7 +55,7 @@ fn main() -> Result<()> {
     print_line(&format!("{threads} CPU threads; microseconds a call, and how many times faster than the first way"))?;
     print_line(&format!("{:<34} {:<28} {:>12} {:>12} {:>9}", "", "", "median", "p95", "ratio"))?;
 
-    let runs: [(&str, Run); 13] = [
+    let runs: [(&str, Run); 16] = [
         (lookups::COLUMNS, lookups::columns),
         (lookups::DIRECTION, lookups::direction),
         (lookups::IRRADIANCE, lookups::irradiance),
@@ -67,6 +69,9 @@ fn main() -> Result<()> {
         (dunes::RIPPLES, dunes::ripples),
         (dunes::DUNES, dunes::dunes),
         (dunes::GROWN_DUNES, dunes::grown_dunes),
+        (gpu_sand::RIPPLES, gpu_sand::ripples),
+        (gpu_sand::DUNES, gpu_sand::dunes),
+        (gpu_sand::SMALL_DUNES, gpu_sand::small_dunes),
     ];
     let mut found = false;
     for (_, run) in runs.iter().filter(|(name, _)| name.contains(&options.common.filter)) {

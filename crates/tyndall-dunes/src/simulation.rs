@@ -47,6 +47,12 @@ pub trait SandDevice: Sized {
     /// When the device refuses them or is lost.
     fn run(&mut self, steps: u32) -> Result<(), Self::Error>;
 
+    /// Waits until all steps are done.
+    ///
+    /// # Errors
+    /// When the device is lost.
+    fn wait(&mut self) -> Result<(), Self::Error>;
+
     /// The automaton as it is after all steps, which are waited for.
     ///
     /// # Errors

@@ -204,10 +204,11 @@ impl DuneJobs {
 impl DuneGrids {
     fn look_around(&self, gpu: &Gpu, lattice: Lattice) -> Result<Vec<Job>, GpuSimError> {
         let kernel = Kernel::load(gpu, "dunes/means.wgsl", "dunes_mean")?;
-        let passes = Uniforms::of_passes(gpu, "means", &SandPass::of_means(lattice, SURROUNDINGS_CELLS))?;
-        let job = |pass, from, to| {
+        let passes = SandPass::of_means(lattice, SURROUNDINGS_CELLS);
+        let numbers = Uniforms::of_passes(gpu, "means", &passes)?;
+        let job = |pass: usize, from, to| {
             let buffers = [("dunes_values", from), ("dunes_means", to)];
-            kernel.job(gpu, invocations(gpu, lattice), &buffers, Some(passes.binding(pass)))
+            kernel.job(gpu, passes[pass].stretches(lattice), &buffers, Some(numbers.binding(narrow(pass))))
         };
         // The first shadow line is not in use yet.
         let [rows, _] = &self.lines;
@@ -285,6 +286,10 @@ impl SandDevice for GpuDunes {
         });
         self.step = self.step.wrapping_add(done);
         result.map_err(GpuSimError::from)
+    }
+
+    fn wait(&mut self) -> Result<(), GpuSimError> {
+        Ok(self.steps.wait(&self.gpu)?)
     }
 
     fn read(&self) -> Result<DuneField, GpuSimError> {

@@ -43,6 +43,9 @@ impl Sand {
     }
 }
 
+/// Cells along which an invocation slides a sum; at most the shortest side of a bed.
+const MEAN_STRETCH_CELLS: i32 = 16;
+
 /// Twin of `SandPass` in `shaders/dunes/sand.wgsl`; units and meanings there.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -77,13 +80,21 @@ impl SandPass {
         passes
     }
 
+    /// Invocations that average a whole bed along the pass's axis: each line of it in stretches.
+    #[must_use]
+    pub fn stretches(&self, lattice: Lattice) -> [u32; 2] {
+        let [nx, ny] = lattice.size().map(narrow);
+        let stride = self.stride.unsigned_abs().max(1);
+        if self.axis[0] == 0 { [nx, ny / stride] } else { [ny, nx / stride] }
+    }
+
     /// Averages over `taps` cells around each, along rows and along columns.
     #[must_use]
     pub fn of_means(lattice: Lattice, square_cells: usize) -> [Self; 2] {
         let [nx, ny] = lattice.size();
         [([1, 0], nx), ([0, 1], ny)].map(|(axis, side)| {
             let half = narrow(square_cells.min(side) / 2).cast_signed();
-            Self { axis, first: -half, last: half - 1, ..Self::default() }
+            Self { axis, first: -half, last: half - 1, stride: MEAN_STRETCH_CELLS, ..Self::default() }
         })
     }
 }
@@ -197,5 +208,7 @@ mod tests {
         let [rows, columns] = SandPass::of_means(lattice, 64);
         assert_eq!((rows.axis, rows.first, rows.last), ([1, 0], -8, 7), "16 cells along x");
         assert_eq!((columns.axis, columns.first, columns.last), ([0, 1], -32, 31), "64 along y");
+        let invocations = [rows, columns].map(|pass| pass.stretches(lattice));
+        assert_eq!(invocations, [[128, 1], [16, 8]], "every line in stretches of 16 cells");
     }
 }

@@ -58,7 +58,7 @@ impl Uniforms {
 /// Cells that an invocation does: one on a GPU; on a processor, where starting an invocation costs more than the work on
 /// a cell, as many as there are rows in a tile.
 fn rows(gpu: &Gpu) -> u32 {
-    if gpu.adapter().device_type == wgpu::DeviceType::Cpu { 16 } else { 1 }
+    if gpu.adapter().is_software { 16 } else { 1 }
 }
 
 /// Invocations that do every cell of a bed.

@@ -125,6 +125,10 @@ impl SandDevice for GpuRipples {
         result.map_err(GpuSimError::from)
     }
 
+    fn wait(&mut self) -> Result<(), GpuSimError> {
+        Ok(self.steps.wait(&self.gpu)?)
+    }
+
     fn read(&self) -> Result<RippleBed, GpuSimError> {
         let mut bed = self.host.clone();
         bed.set_state(&read(&self.gpu, &self.heights)?, self.step)?;

@@ -26,8 +26,7 @@ pub(crate) struct Steps {
 impl Steps {
     /// For a bed of this size; any kernel of the automaton will do.
     pub(crate) fn new(gpu: &Gpu, lattice: Lattice, kernel: &Kernel) -> Result<Self, GpuError> {
-        let is_processor = gpu.adapter().device_type == wgpu::DeviceType::Cpu;
-        let most = if is_processor { CELL_STEPS_ON_CPU } else { CELL_STEPS };
+        let most = if gpu.adapter().is_software { CELL_STEPS_ON_CPU } else { CELL_STEPS };
         let fit = u32::try_from(most / lattice.cells() as u64).unwrap_or(MOST_STEPS);
         let batch = fit.clamp(1, MOST_STEPS);
         let numbers = Uniforms::new::<Sand>(gpu, "numbers of the steps", batch)?;
@@ -67,5 +66,10 @@ impl Steps {
             done += batch;
         }
         (done, Ok(()))
+    }
+
+    /// Waits for the last submission.
+    pub(crate) fn wait(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+        self.last.take().map_or(Ok(()), |last| gpu.wait(last))
     }
 }
