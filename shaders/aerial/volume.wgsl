@@ -6,6 +6,7 @@
 // thin a layer is; light is taken where the piece's extinction has its centre, and dimmed within the piece.
 // Exact integral and slices in f64: tyndall_scattering::aerial.
 // @import aerial/aerial.wgsl
+// @import clouds/shadow.wgsl
 // @import frame/frame.wgsl
 // @import sky/column_lookup.wgsl
 // @import sky/ground_light.wgsl
@@ -19,8 +20,8 @@
 const AERIAL_PIECES: u32 = 4u;
 const AERIAL_VECTORS: u32 = 10u; // of a slice
 
-/// Ten vectors a slice, slices of a ray after one another: columns before it (m); the ray, and
-/// in its place the three parts of the light that the slice adds; from the fifth on spectra of the light of all orders
+/// Ten vectors a slice, slices of a ray after one another: columns before it (m); the ray, its way over the ground, and
+/// in their place the three parts of the light that the slice adds; from the fifth on spectra of the light of all orders
 /// that one metre of air, aerosol and haze at density 1 scatters into the ray (W/m^3/sr/nm).
 @group(0) @binding(19) var<storage, read_write> aerial_scratch: array<vec4<f32>>;
 
@@ -103,8 +104,8 @@ struct AerialSlice {
     haze: Spectrum,
 }
 
-/// What a slice adds behind columns of `before` (m).
-fn aerial_slice(ray: Ray, slice: u32, before: vec4<f32>, around: Scattered) -> AerialSlice {
+/// What a slice adds behind columns of `before` (m); the way's first half is the horizontal direction, then the origin (m).
+fn aerial_slice(ray: Ray, way: vec4<f32>, slice: u32, before: vec4<f32>, around: Scattered) -> AerialSlice {
     let zero = Spectrum(vec4<f32>(0.0), vec4<f32>(0.0));
     var out = AerialSlice(zero, zero, zero);
     var columns = before;
@@ -115,11 +116,13 @@ fn aerial_slice(ray: Ray, slice: u32, before: vec4<f32>, around: Scattered) -> A
         let depth = aerial_optical_depth(piece.columns);
         let view = atmosphere_transmittance(columns);
         let seen = Spectrum(view.lo * aerial_dimmed(depth.lo), view.hi * aerial_dimmed(depth.hi));
-        let lit = spectrum_mul(seen, aerial_sunlight(ray, piece.centre));
+        let h = altitude_along(atmosphere.planet_radius_m, ray.h, ray.mu, piece.centre);
+        let shadow = cloud_shadow(way.zw + piece.centre * way.xy, h);
+        let lit = spectrum_scale(spectrum_mul(seen, aerial_sunlight(ray, piece.centre)), shadow);
         let air = spectrum_scale(around.air, piece.columns.x);
         let aerosol = spectrum_scale(around.aerosol, piece.columns.y);
         let haze = spectrum_scale(around.haze, piece.columns.w);
-        let diffuse = spectrum_add(spectrum_add(air, aerosol), haze);
+        let diffuse = spectrum_scale(spectrum_add(spectrum_add(air, aerosol), haze), cloud_shade_mean(h));
         out.light = spectrum_add(out.light, spectrum_mul(seen, diffuse));
         out.light = spectrum_add(out.light, spectrum_scale(spectrum_mul(lit, atmosphere.air_source), phase * piece.columns.x));
         out.aerosol = spectrum_add(out.aerosol, spectrum_scale(spectrum_mul(lit, atmosphere.aerosol_source), piece.columns.y));
@@ -144,10 +147,13 @@ fn aerial_scratch_index(place: vec2<u32>, slice: u32) -> u32 {
     return AERIAL_VECTORS * ((place.y * aerial.columns + place.x) * AERIAL_SLICES + slice);
 }
 
-/// The ray of a column and a row.
-fn aerial_ray(place: vec2<u32>) -> Ray {
-    let plane = 2.0 * vec2<f32>(place) / vec2<f32>(f32(aerial.columns - 1u), f32(aerial.rows - 1u)) - 1.0;
-    let direction = frame_direction(plane);
+/// Direction of a column and a row.
+fn aerial_direction(place: vec2<u32>) -> vec3<f32> {
+    return frame_direction(2.0 * vec2<f32>(place) / vec2<f32>(f32(aerial.columns - 1u), f32(aerial.rows - 1u)) - 1.0);
+}
+
+/// The ray in a direction.
+fn aerial_ray(direction: vec3<f32>) -> Ray {
     return Ray(sky_view.observer_altitude_m, direction.z, sky_view.sun_direction.z, sky_sun_cosine(direction));
 }
 
@@ -161,12 +167,14 @@ fn aerial_ends(slice: u32, piece: u32) -> vec2<f32> {
 @compute @workgroup_size(8, 8, 1)
 fn aerial_columns(@builtin(global_invocation_id) id: vec3<u32>) {
     if (any(id.xy >= vec2<u32>(aerial.columns, aerial.rows))) { return; }
-    let ray = aerial_ray(id.xy);
+    let direction = aerial_direction(id.xy);
+    let ray = aerial_ray(direction);
     var columns = vec4<f32>(0.0);
     for (var slice = 0u; slice < AERIAL_SLICES; slice++) { // loops: AERIAL_SLICES
         let index = aerial_scratch_index(id.xy, slice);
         aerial_scratch[index] = columns;
         aerial_scratch[index + 1u] = vec4<f32>(ray.h, ray.mu, ray.mu_sun, ray.nu);
+        aerial_scratch[index + 2u] = vec4<f32>(direction.xy, frame.position_m.xy);
         for (var i = 0u; i < AERIAL_PIECES; i++) { // loops: AERIAL_PIECES
             let ends = aerial_ends(slice, i);
             columns += aerial_piece(ray, ends.x, ends.y).columns;
@@ -208,7 +216,7 @@ fn aerial_slices(@builtin(global_invocation_id) id: vec3<u32>) {
         Spectrum(aerial_scratch[index + 6u], aerial_scratch[index + 7u]),
         Spectrum(aerial_scratch[index + 8u], aerial_scratch[index + 9u]),
     );
-    let added = aerial_slice(aerial_stored_ray(index), id.z, aerial_scratch[index], around);
+    let added = aerial_slice(aerial_stored_ray(index), aerial_scratch[index + 2u], id.z, aerial_scratch[index], around);
     aerial_scratch[index + 1u] = vec4<f32>(atmosphere_rec709(added.light), 0.0);
     aerial_scratch[index + 2u] = vec4<f32>(atmosphere_rec709(added.aerosol), 0.0);
     aerial_scratch[index + 3u] = vec4<f32>(atmosphere_rec709(added.haze), 0.0);

@@ -1,6 +1,8 @@
 // The air between the camera and a cloud, from the sky's tables. Light scattered into the line of sight is the share of the
 // whole sky's in that direction that the air's opacity has up to there: exact where the air along the ray is lit evenly.
+// @import clouds/shade.wgsl
 // @import sky/column_lookup.wgsl
+// @import sky/moon_sky.wgsl
 // @import sky/sky_view_lookup.wgsl
 // @import sky/view.wgsl
 
@@ -45,6 +47,7 @@ fn cloud_air(direction: vec3<f32>, t: f32) -> CloudAir {
     let near = cloud_air_rec709(atmosphere_transmittance(cloud_air_columns(direction.z, t))) / white;
     let whole = cloud_air_rec709(atmosphere_transmittance(cloud_sight_columns(direction.z))) / white;
     let share = clamp((1.0 - near) / max(1.0 - whole, vec3<f32>(1e-5)), vec3<f32>(0.0), vec3<f32>(1.0));
-    let sky = sky_view_radiance(sky_view_angles(direction), sky_sun_cosine(direction));
-    return CloudAir(near, share * sky);
+    let sky = sky_view_radiance(sky_view_angles(direction), sky_sun_cosine(direction)) + moon_sky_radiance(direction);
+    let lit = cloud_shade_of_air(sky_view.observer_altitude_m, atmosphere.air_scale_height_m);
+    return CloudAir(near, lit * share * sky);
 }

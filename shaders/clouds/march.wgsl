@@ -2,6 +2,7 @@
 // by `transport`, and gathered with that medium's transmittance; see tyndall_clouds::cloud_light.
 // @import clouds/clouds.wgsl
 // @import clouds/detail.wgsl
+// @import clouds/shade.wgsl
 // @import common/phase.wgsl
 // @import sky/view.wgsl
 
@@ -56,7 +57,7 @@ fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
     let radius = atmosphere.planet_radius_m;
     let h0 = cloud_eye_m.z;
     let span = cloud_span(direction.z, limit_m);
-    let phases = cloud_phases(sky_sun_cosine(direction));
+    let phases = cloud_phases(cloud_shade_cosine(direction));
     var light = CloudLight(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
     let often = f32(clouds.all_orders);
     var thin = 1.0; // transmittance for light that was scattered often

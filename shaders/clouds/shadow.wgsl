@@ -1,45 +1,15 @@
 // What clouds leave of the light of sun and sky, for whatever stands or floats in the scene: ground, landscape, air, shafts.
-// Below the clouds from a map on the plane of their floor, seen along the sun's rays; among them from the light volume;
-// above them nothing is missing. Without clouds the map holds full light, and every factor here is exactly 1.
-// Twin: tyndall_clouds::floor_shadow. Uniform twin: tyndall_render::clouds::gpu_data::CloudShadow.
-// A storage buffer, and decisions without branches, as in clouds/clouds.wgsl.
+// Below the clouds from the map on their floor; among them from the light volume; above them nothing is missing.
+// Twins: tyndall_clouds::floor_shadow.
+// @import clouds/shade.wgsl
 
-struct CloudShadow {
-    map_corner_m: vec2<f32>,   // low corner of the map, east and north of the origin
-    map_size_m: vec2<f32>,
-    cells_corner_m: vec2<f32>, // of the grid of cells
-    cells_size_m: vec2<f32>,
-    slope: vec2<f32>,          // 1, way east and north for each metre up, towards the sun
-    floor_m: f32,              // altitudes between which there are cells
-    ceiling_m: f32,
-    texel_m: f32,              // side of the map's finest texel
-    spread: f32,               // 1, width of a half shadow for each metre below the clouds
-    layers: f32,               // cells from floor to ceiling
-    wraps: u32,                // 1 when map and cells repeat
-    mean: vec3<f32>,           // 1, of the map
-    padding: u32,
-}
-@group(3) @binding(0) var<storage, read> cloud_shade: CloudShadow;
-@group(3) @binding(1) var cloud_shade_map: texture_2d<f32>;   // sunlight straight, sunlight scattered, skylight
 @group(3) @binding(2) var cloud_shade_cells: texture_3d<f32>; // y: optical depth to the sun
-@group(3) @binding(3) var cloud_shade_sampler: sampler;
 
 /// Shares of light that reach a place.
 struct CloudShade {
     direct: f32,  // of the sunlight, straight
     diffuse: f32, // of the sunlight, scattered by clouds on its way
     sky: f32,     // of the sky's light
-}
-
-/// The map at a place (m), blurred over a width (m).
-fn cloud_shade_floor(place: vec2<f32>, width_m: f32) -> vec3<f32> {
-    let local = place - cloud_shade.map_corner_m;
-    let level = log2(max(width_m / cloud_shade.texel_m, 1.0));
-    let light = textureSampleLevel(cloud_shade_map, cloud_shade_sampler, local / cloud_shade.map_size_m, level).xyz;
-    // Coarse texels at the edge of a map that does not repeat hold some of what lies within.
-    let away = max(max(-local, local - cloud_shade.map_size_m), vec2<f32>(0.0));
-    let gone = clamp(max(away.x, away.y) / max(width_m, cloud_shade.texel_m), 0.0, 1.0);
-    return mix(light, vec3<f32>(1.0, 0.0, 1.0), select(gone, 0.0, cloud_shade.wraps == 1u));
 }
 
 /// Share of the sunlight at a place among the cells.
@@ -83,10 +53,4 @@ fn cloud_shade_at(place: vec2<f32>, altitude: f32) -> CloudShade {
 /// Factor on light of the ground for what clouds send back to it, which it reflects again.
 fn cloud_shade_between(shade: CloudShade, albedo: vec4<f32>) -> vec4<f32> {
     return 1.0 / (1.0 - albedo * (1.0 - shade.sky));
-}
-
-/// Mean share of daylight in the air at an altitude.
-fn cloud_shade_mean(altitude: f32) -> f32 {
-    let share = clamp((cloud_shade.ceiling_m - altitude) / (cloud_shade.ceiling_m - cloud_shade.floor_m), 0.0, 1.0);
-    return 1.0 + share * (cloud_shade.mean.x + cloud_shade.mean.y - 1.0);
 }

@@ -2,6 +2,8 @@
 // @import clouds/air.wgsl
 // @import clouds/march.wgsl
 // @import sky/ground_light.wgsl
+// @import sky/light_lookup.wgsl
+// @import sky/moon_sky.wgsl
 
 @group(2) @binding(4) var cloud_behind: texture_2d<f32>; // the frame without clouds
 @group(2) @binding(5) var cloud_depth: texture_2d<f32>;  // reversed, 0 where the sky is
@@ -23,21 +25,43 @@ fn cloud_jitter(pixel: vec2<u32>) -> f32 {
     return fract(52.9829189 * fract(dot(vec2<f32>(pixel), vec2<f32>(0.06711056, 0.00583715))));
 }
 
-/// Radiance (cd/m^2) of a cloud where it is. The sky shines on it as on level ground at sea level, the ground as it is lit there.
-fn cloud_radiance(direction: vec3<f32>, light: CloudLight) -> vec3<f32> {
+/// Irradiance (W/m^2/nm) of sun or moon on a surface that faces it, where a cloud is; 0 in the planet's shadow.
+fn cloud_lamp_irradiance(direction: vec3<f32>, t: f32, h: f32) -> Spectrum {
+    let radius = atmosphere.planet_radius_m;
+    let mu = mu_along(radius, sky_view.observer_altitude_m, cloud_shade.lamp.z, cloud_shade_cosine(direction), t, h);
+    let horizon = horizon_mu(radius, h);
+    let visible = clamp(0.5 + 0.5 * (mu - horizon) / sin(sky_view.sun_angular_radius), 0.0, 1.0);
+    let is_moon = cloud_shade.moonlit == 1u;
+    let strength = Spectrum(select(vec4<f32>(1.0), moon.light.lo, is_moon), select(vec4<f32>(1.0), moon.light.hi, is_moon));
+    let arriving = spectrum_mul(atmosphere.solar_irradiance, atmosphere_transmittance(columns_to_top(h, max(mu, horizon))));
+    return spectrum_scale(spectrum_mul(strength, arriving), visible);
+}
+
+/// Radiance (cd/m^2) of moonlit sky and ground around a cloud; of moonlight on the ground at sea level.
+fn cloud_moonlit(direction: vec3<f32>, t: f32, h: f32, light: CloudLight, below: f32) -> vec3<f32> {
+    let mu = mu_along(atmosphere.planet_radius_m, sky_view.observer_altitude_m, moon.direction.z, dot(direction, moon.direction), t, h);
+    let sky = ground_sky_irradiance(mu);
+    let ground = spectrum_mul(atmosphere.ground_albedo, spectrum_add(sky, ground_sun_irradiance(mu)));
+    let around = spectrum_add(spectrum_scale(sky, light.sky), spectrum_scale(ground, below * light.ground));
+    return f32(moon.skylight) / SKY_PI * atmosphere_rec709(spectrum_mul(moon.light, around));
+}
+
+/// Radiance (cd/m^2) of a cloud where it is: sun or moon, the sky above and the ground in the clouds' shade below.
+fn cloud_radiance(direction: vec3<f32>, light: CloudLight, pixel: vec2<u32>) -> vec3<f32> {
     let radius = atmosphere.planet_radius_m;
     let h0 = sky_view.observer_altitude_m;
-    let h = min(altitude_along(radius, h0, direction.z, light.distance_m), atmosphere.top_altitude_m);
-    let mu_sun = mu_along(radius, h0, sky_view.sun_direction.z, sky_sun_cosine(direction), light.distance_m, h);
-    let horizon = horizon_mu(radius, h);
-    let visible = clamp(0.5 + 0.5 * (mu_sun - horizon) / sin(sky_view.sun_angular_radius), 0.0, 1.0);
-    let sunlight = spectrum_mul(atmosphere.solar_irradiance, atmosphere_transmittance(columns_to_top(h, max(mu_sun, horizon))));
-    let sky = ground_sky_irradiance(mu_sun);
-    let ground = spectrum_mul(atmosphere.ground_albedo, spectrum_add(sky, ground_sun_irradiance(mu_sun)));
-    let ambient = light.sky / SKY_PI * atmosphere_rec709(sky) + light.ground / SKY_PI * atmosphere_rec709(ground);
-    // Light from behind the cloud that was scattered a little: blurred, and as bright as sky or ground there.
-    let behind = select(atmosphere_rec709(ground) / SKY_PI, sky_view_radiance(sky_view_angles(direction), sky_sun_cosine(direction)), direction.z > 0.0);
-    return light.sun * visible * atmosphere_rec709(sunlight) + ambient + light.forward * behind;
+    let t = light.distance_m;
+    let h = min(altitude_along(radius, h0, direction.z, t), atmosphere.top_altitude_m);
+    let mu_sun = mu_along(radius, h0, sky_view.sun_direction.z, sky_sun_cosine(direction), t, h);
+    let below = cloud_shade_of_ground(frame.position_m.xy + t * direction.xy, h);
+    let sky = sky_light_irradiance(h, mu_sun, 1.0, 0.0, mu_sun) / SKY_PI;
+    let ground = below * sky_light_irradiance(h, mu_sun, -1.0, 0.0, -mu_sun) / SKY_PI;
+    let ambient = light.sky * sky + light.ground * ground + cloud_moonlit(direction, t, h, light, below);
+    // Light from behind the cloud that was scattered a little: as bright as what is there, of the sky without discs and stars.
+    let open = sky_view_radiance(sky_view_angles(direction), sky_sun_cosine(direction)) + moon_sky_radiance(direction);
+    let things = textureLoad(cloud_behind, pixel, 0).xyz / frame.pre_exposure;
+    let behind = select(open, things, textureLoad(cloud_depth, pixel, 0).x > 0.0);
+    return light.sun * atmosphere_rec709(cloud_lamp_irradiance(direction, t, h)) + ambient + light.forward * behind;
 }
 
 @fragment
@@ -50,7 +74,7 @@ fn cloud_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f
         discard;
     }
     let air = cloud_air(direction, light.distance_m);
-    let over = air.transmittance * cloud_radiance(direction, light) + air.veil * (1.0 - light.transmittance);
+    let over = air.transmittance * cloud_radiance(direction, light, pixel) + air.veil * (1.0 - light.transmittance);
     let behind = textureLoad(cloud_behind, pixel, 0).xyz * light.transmittance;
     return vec4<f32>(min(behind + over * frame.pre_exposure, vec3<f32>(frame.largest)), 1.0);
 }

@@ -49,14 +49,6 @@ fn ground_shaded(sun: Spectrum, sky: Spectrum, shade: CloudShade) -> Spectrum {
     return Spectrum(light.lo * cloud_shade_between(shade, atmosphere.ground_albedo.lo), light.hi * cloud_shade_between(shade, atmosphere.ground_albedo.hi));
 }
 
-/// Share of its light that the air in front of the ground has: what lies below clouds has their mean shade.
-fn ground_air_share() -> f32 {
-    let scale = atmosphere.air_scale_height_m;
-    let whole = 1.0 - exp(-max(sky_view.observer_altitude_m, 1.0) / scale);
-    let below = 1.0 - exp(-clamp(sky_view.observer_altitude_m, 1.0, max(cloud_shade.floor_m, 1.0)) / scale);
-    return 1.0 + below / whole * (cloud_shade_mean(0.0) - 1.0);
-}
-
 @vertex
 fn ground_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
     return frame_triangle(index);
@@ -87,14 +79,15 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     let reflected = spectrum_scale(spectrum_mul(atmosphere.ground_albedo, light), ground_pattern(place, footprint_m) / SKY_PI);
     let transmittance = atmosphere_transmittance(ground_view_columns(direction.z, t));
     let angles = sky_view_angles(direction);
-    let veil = ground_air_share() * (sky_view_radiance(angles, nu) + ground_night_veil(direction, transmittance));
+    let air_share = cloud_shade_of_air(h, atmosphere.air_scale_height_m);
+    let veil = air_share * (sky_view_radiance(angles, nu) + ground_night_veil(direction, transmittance));
     var radiance = atmosphere_rec709(spectrum_mul(reflected, transmittance)) + veil;
     let coverage = ground_coverage(plane, angles.x);
     if (coverage < 1.0) {
         // A hair above the horizon, so that rounding does not take the rows below it.
         let edge = sky_view.horizon_elevation + 1e-5;
         let raised = vec3<f32>(direction.xy * (cos(edge) / max(length(direction.xy), 1e-6)), sin(edge));
-        let above = ground_air_share() * (sky_view_radiance(vec2<f32>(edge, angles.y), nu) + ground_night_veil(raised, transmittance));
+        let above = air_share * (sky_view_radiance(vec2<f32>(edge, angles.y), nu) + ground_night_veil(raised, transmittance));
         radiance = mix(above, radiance, coverage);
     }
     return GroundFragment(vec4<f32>(radiance * frame.pre_exposure, 1.0), frame.near_m / frame_depth_m(direction, t));

@@ -8,7 +8,7 @@ struct SkyLight {
     top_altitude_m: f32,  // of the last row; the first is at sea level
     lux: f32,             // lx per stored value
 }
-@group(0) @binding(20) var<uniform> sky_light: SkyLight;
+@group(0) @binding(29) var<uniform> sky_light: SkyLight;
 
 const SKY_LIGHT_SUNS: u32 = 8u;
 const SKY_LIGHT_ALTITUDES: u32 = 24u;

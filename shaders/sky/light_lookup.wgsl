@@ -3,8 +3,8 @@
 // @import sky/light.wgsl
 // @import sky/orders_basis.wgsl
 
-@group(0) @binding(21) var sky_light_table: texture_2d<f32>;
-@group(0) @binding(22) var sky_light_sampler: sampler;
+@group(0) @binding(30) var sky_light_table: texture_2d<f32>;
+@group(0) @binding(31) var sky_light_sampler: sampler;
 
 /// A layer of the table at an altitude (m) and the sun's zenith cosine there (lx).
 fn sky_light_layer(h: f32, mu_sun: f32, layer: u32) -> vec3<f32> {

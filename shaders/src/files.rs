@@ -17,6 +17,7 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "clouds/clouds.wgsl",
     "clouds/detail.wgsl",
     "clouds/march.wgsl",
+    "clouds/shade.wgsl",
     "clouds/shadow.wgsl",
     "clouds/view.wgsl",
     "common/grain.wgsl",

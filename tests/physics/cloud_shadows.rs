@@ -119,3 +119,64 @@ fn an_empty_sky_of_clouds_leaves_pictures_as_they_are() {
         assert_eq!(studio.radiance(&scene(preset, &empty), SIZE), open, "{preset}");
     }
 }
+
+#[test]
+fn below_an_overcast_sky_ground_and_air_are_dim() {
+    let mut studio = Studio::new();
+    let deck = [
+        ("clouds.kind", "automaton"),
+        ("cloud_vapour.pattern", "sea-of-clouds"),
+        ("cloud_vapour.cover", "1"),
+        ("cloud_vapour.bubble_height_m", "1200"),
+        ("cloud_vapour.humidity", "0.2"),
+        ("cloud_vapour.activation", "0.02"),
+        ("cloud_vapour.extinction", "0.04"),
+        ("cloud_matter.extinction_per_m", "0.2"),
+        ("cloud_grid.cells_east", "64"),
+        ("cloud_grid.cells_north", "64"),
+        ("cloud_grid.floor_m", "3500"),
+        ("clouds.reach_km", "1"),
+    ];
+    // Clouds are out of reach: what is left is their shade.
+    for preset in ["noon", "mountains"] {
+        let below = [("camera.pitch_deg", "-50"), ("sun.elevation_deg", "40")];
+        let mean = |pixels: Vec<[f32; 4]>| pixels.into_iter().map(luminance).sum::<f64>();
+        let clear = mean(studio.radiance(&scene(preset, &below), SIZE));
+        let dim = mean(studio.radiance(&scene(preset, &[&deck[..], &below].concat()), SIZE));
+        // Clouds of an optical depth of 50 to 100 let through a tenth to a third.
+        assert!((0.04..0.45).contains(&(dim / clear)), "{preset}: {dim} of {clear} cd/m^2");
+    }
+}
+
+#[test]
+fn the_moon_lights_clouds_as_a_sun_of_its_irradiance_would() {
+    let mut studio = Studio::new();
+    let void = [
+        &GROUND[..3],
+        &GROUND[13..],
+        &[
+            ("camera.altitude_m", "10"),
+            ("camera.pitch_deg", "40"),
+            ("ground.material", "colour"),
+            ("ground.red", "0"),
+            ("ground.green", "0"),
+            ("ground.blue", "0"),
+            ("sun.disc", "false"),
+            ("moon.disc", "false"),
+            ("stars.visible", "false"),
+            ("stars.airglow_cd_m2", "0"),
+        ],
+    ]
+    .concat();
+    let night = [("sun.elevation_deg", "-40"), ("moon.elevation_deg", "50"), ("moon.azimuth_deg", "187")];
+    let day = [("sun.elevation_deg", "50"), ("sun.azimuth_deg", "187"), ("moon.position", "none")];
+    let [dark, bright] =
+        [night, day].map(|light| studio.radiance(&scene("moonlight", &[&void[..], &light].concat()), SIZE));
+    let sum = |pixels: &[[f32; 4]]| pixels.iter().map(|pixel| luminance(*pixel)).sum::<f64>();
+    let ratio = sum(&dark) / sum(&bright);
+    // A full moon gives 0.27 lx, one 25 degrees from full about half of it; the sun 133,000 lx.
+    assert!((5e-7..2.5e-6).contains(&ratio), "moonlight over sunlight: {ratio}");
+    for (dark, bright) in dark.iter().zip(&bright).map(|(a, b)| (luminance(*a), luminance(*b))) {
+        assert!((dark / ratio - bright).abs() < 0.02 * bright + 1e-3 * sum(&[[1.0; 4]]), "{dark} for {bright}");
+    }
+}

@@ -156,6 +156,8 @@ fn cloud_shadow() -> (&'static str, StructLayout) {
             layers,
             wraps,
             mean,
+            moonlit,
+            lamp,
             padding,
         }),
     )

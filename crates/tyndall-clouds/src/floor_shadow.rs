@@ -13,6 +13,7 @@ use tyndall_core::grid::Grid3;
 
 use crate::edges::Edges;
 use crate::error::{CloudError, in_range};
+use crate::matter::CloudMatter;
 use crate::narrow::narrow;
 
 /// Sine of the lowest elevation of a sun whose shadows are computed.
@@ -91,6 +92,51 @@ pub fn floor_shadow(
         }
     });
     Ok(FloorShadow { size: rays.size, corner_cells: rays.corner, light })
+}
+
+/// Optical depth of clouds from a place (m; altitude last) in a direction, by samples a quarter of a cell apart. A wrapped
+/// grid is followed for at most [`MOST_TEXELS`] cells.
+#[must_use]
+pub fn optical_depth(matter: &CloudMatter, place_m: [f64; 3], direction: [f64; 3]) -> f64 {
+    let length = direction.iter().map(|part| part * part).sum::<f64>().sqrt();
+    let step: [f64; 3] = direction.map(|part| 0.25 * part / length);
+    let mut place: [f64; 3] = std::array::from_fn(|axis| (place_m[axis] - matter.low_corner_m[axis]) / matter.cell_m);
+    let layers = matter.extinction_per_m.size()[2] as f64;
+    // From afar to the layers.
+    let skipped = if step[2] > 0.0 { -place[2] / step[2] } else { (layers - place[2]) / step[2].min(-1e-12) };
+    place.iter_mut().zip(step).for_each(|(place, step)| *place += skipped.max(0.0) * step);
+    let mut sum = 0.0;
+    for _ in 0..4 * MOST_TEXELS {
+        place.iter_mut().zip(step).for_each(|(place, step)| *place += 0.5 * step);
+        if !(0.0..=layers).contains(&place[2]) {
+            break;
+        }
+        sum += extinction_at(matter, place);
+        place.iter_mut().zip(step).for_each(|(place, step)| *place += 0.5 * step);
+    }
+    0.25 * matter.cell_m * sum
+}
+
+/// Extinction (1/m) at a place in cells, linear between the cells' centres.
+fn extinction_at(matter: &CloudMatter, place: [f64; 3]) -> f64 {
+    let cells = &matter.extinction_per_m;
+    let size = cells.size();
+    let wraps = matter.edges == Edges::Wrap;
+    let is_outside = (0..2).any(|axis| !(0.0..=size[axis] as f64).contains(&place[axis]));
+    if is_outside && !wraps {
+        return 0.0;
+    }
+    let along = |axis: usize| neighbours(place[axis] - 0.5, size[axis], wraps && axis < 2);
+    let ((columns, east), (rows, north), (layers, up)) = (along(0), along(1), along(2));
+    let mut sum = 0.0;
+    for (z, up) in layers.into_iter().zip([1.0 - up, up]) {
+        for (y, north) in rows.into_iter().zip([1.0 - north, north]) {
+            for (x, east) in columns.into_iter().zip([1.0 - east, east]) {
+                sum += f64::from(up * north * east * cells[[x, y, z]]);
+            }
+        }
+    }
+    sum
 }
 
 /// Light below cloud of these optical depths towards the sun and upwards.
@@ -404,6 +450,29 @@ mod tests {
         let at = |x: f64| f64::from(map.at([x, 2.5], Edges::Wrap).direct);
         assert!((at(3.0) - 0.5 * (at(2.5) + at(3.5))).abs() < 1e-6, "between");
         assert!((at(8.5) - at(0.5)).abs() < 1e-6 && (at(-0.2) - at(7.8)).abs() < 1e-6, "around");
+    }
+
+    #[test]
+    fn the_optical_depth_from_a_place_is_the_references_and_that_of_the_map_where_the_grid_repeats() {
+        let (size, cell_m) = ([12, 10, 9], 25.0);
+        let medium = Medium::new(lumps(size), cell_m).unwrap();
+        let list = |edges| CloudMatter::of_density(lumps(size), cell_m, [-50.0, 20.0, 700.0], edges, cell_m);
+        let (open, wrapped) = (list(Edges::Open), list(Edges::Wrap));
+        let map = floor_shadow(&lumps(size), cell_m, [0.3, 0.2, 0.9], 0.15, Edges::Wrap).unwrap();
+        for (x, y) in [(12.5, 12.5), (137.5, 87.5), (212.5, 162.5)] {
+            let (place, sun) = ([x - 50.0, y + 20.0, 700.0], [0.3, 0.2, 0.9]);
+            let length = 0.94_f64.sqrt();
+            let wanted = medium.optical_depth([x, y, 0.0], sun.map(|part| part / length), 0.02 * cell_m);
+            let found = optical_depth(&open, place, sun);
+            assert!((found - wanted).abs() < 0.02 * wanted.max(1.0), "from {place:?}: {found} for {wanted}");
+            // From far below, along the same ray.
+            let below = std::array::from_fn(|axis| place[axis] - 500.0 * sun[axis]);
+            assert!((optical_depth(&open, below, sun) - found).abs() < 0.05, "from below {place:?}");
+            let direct = f64::from(map.at([x / cell_m, y / cell_m], Edges::Wrap).direct);
+            let through = (-optical_depth(&wrapped, place, sun)).exp();
+            assert!((through - direct).abs() < 0.02, "the map at {place:?}: {direct} for {through}");
+        }
+        assert!(optical_depth(&open, [0.0, 100.0, 2000.0], [0.0, 0.0, 1.0]) == 0.0, "nothing is above");
     }
 
     #[test]

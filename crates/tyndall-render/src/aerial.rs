@@ -11,6 +11,7 @@ use tyndall_scattering::aerial::AERIAL_SLICES;
 use tyndall_scene::Scene;
 
 use crate::RenderError;
+use crate::clouds::CloudRenderer;
 use crate::exposure::{daylight_ev100, gain_from_ev100};
 use crate::frame::gpu_data::Frame;
 use crate::sky::light::linear_sampler;
@@ -38,8 +39,8 @@ const VOLUMES: [(&str, &str); 4] = [
     ("aerial_depth_texels", "aerial_depth_volume"),
 ];
 
-/// What a volume was filled for: itself, the view, the sun's direction, and which tables.
-type Filled = (gpu_data::Aerial, [f32; 16], [f32; 3], u64);
+/// What a volume was filled for: itself, the view, the sun's direction, which tables and which clouds.
+type Filled = (gpu_data::Aerial, [f32; 16], [f32; 3], [u64; 2]);
 
 /// The volume, its uniform and the pipelines that fill it.
 #[derive(Debug)]
@@ -62,6 +63,8 @@ pub struct AerialRequest<'a> {
     pub reach: SkyLightReach,
     /// The frame's uniform, and the buffer that holds it.
     pub frame: (&'a Frame, &'a Buffer),
+    /// The clouds, prepared for the scene: what they leave of the sunlight.
+    pub clouds: &'a CloudRenderer,
 }
 
 impl gpu_data::Aerial {
@@ -116,7 +119,8 @@ impl AerialVolume {
     ) -> Result<(), RenderError> {
         let aerial = gpu_data::Aerial::new(request.scene, request.reach)?;
         let sun = request.scene.sun_direction()?.unit().as_vec3().to_array();
-        let wanted = (aerial, view_key(request.frame.0), sun, tables.revision());
+        let revisions = [tables.revision(), request.clouds.shadow_revision()];
+        let wanted = (aerial, view_key(request.frame.0), sun, revisions);
         if self.filled_for == Some(wanted) {
             return Ok(());
         }
@@ -126,7 +130,7 @@ impl AerialVolume {
             self.volumes = volumes(gpu, [aerial.columns, aerial.rows])?;
             self.scratch = scratch(gpu, [aerial.columns, aerial.rows])?;
         }
-        self.record(gpu, encoder, timer, (tables, request.frame.1, &aerial))?;
+        self.record(gpu, encoder, timer, (tables, &request, &aerial))?;
         self.filled_for = Some(wanted);
         Ok(())
     }
@@ -136,7 +140,7 @@ impl AerialVolume {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         timer: &mut PassTimer,
-        (tables, frame, aerial): (&SkyTables, &Buffer, &gpu_data::Aerial),
+        (tables, request, aerial): (&SkyTables, &AerialRequest<'_>, &gpu_data::Aerial),
     ) -> Result<(), RenderError> {
         let volume = |index: usize| (VOLUMES[index].0, self.volumes[index].as_binding());
         let own = [("aerial", self.uniform.as_entire_binding()), ("aerial_scratch", self.scratch.as_entire_binding())];
@@ -159,7 +163,12 @@ impl AerialVolume {
             pass.set_bind_group(0, &step.bind(gpu, 0, &resources)?, &[]);
             // The columns alone need the camera.
             if index == 0 {
-                pass.set_bind_group(1, &step.bind(gpu, 1, &[("frame", frame.as_entire_binding())])?, &[]);
+                let frame = [("frame", request.frame.1.as_entire_binding())];
+                pass.set_bind_group(1, &step.bind(gpu, 1, &frame)?, &[]);
+            }
+            // What the slices add alone needs the clouds.
+            if index == 2 {
+                pass.set_bind_group(3, &step.bind(gpu, 3, &request.clouds.shadow_bindings())?, &[]);
             }
             step.dispatch(
                 &mut pass,

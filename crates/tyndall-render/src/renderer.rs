@@ -20,8 +20,8 @@ use crate::sky::gpu_data::{Atmosphere as AtmosphereUniform, SkyView};
 use crate::sky::{OrdersRequest, SkyLightTable, SkyRenderer, SkyTables, TableBuilding, TableProgress};
 use crate::{FrameTarget, RenderError, RendererConfig, View};
 
-/// Passes that a frame can have: five tables, light on surfaces, the air, three of the landscape, scene, clouds, meter, development.
-const TIMED_PASSES: u32 = 16;
+/// Passes that a frame can have: five tables, light on surfaces and clouds, the air, three of the landscape, scene, clouds, meter, development.
+const TIMED_PASSES: u32 = 17;
 
 /// Draws scenes. All pipelines are made at once, so that a wrong shader shows at the start.
 #[derive(Debug)]
@@ -104,7 +104,7 @@ impl Renderer {
         let orders = OrdersRequest { model: &model, quality: orders_quality(scene), brightness: scene.sun.brightness };
         self.tables.update_night(gpu, scene, &model, pixel_angle(&frame))?;
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
-        let clouds = self.prepare_clouds(gpu, scene, target)?;
+        let clouds = self.prepare_clouds(gpu, &mut encoder, scene, target)?;
         let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), &frame)?;
         self.record_scene(gpu, &mut encoder, (scene, landscape), target)?;
         if let Some(clouds) = &clouds {
@@ -163,7 +163,7 @@ impl Renderer {
         let size_px = frame.size_px;
         let Some(reach) = crate::landscape::reach(scene, view, size_px) else { return Ok(None) };
         self.light.update(gpu, encoder, &mut self.timer, &self.tables, (scene, reach))?;
-        let request = AerialRequest { scene, reach, frame: (frame, &self.frame) };
+        let request = AerialRequest { scene, reach, frame: (frame, &self.frame), clouds: &self.clouds };
         self.air.update(gpu, encoder, &mut self.timer, &self.tables, request)?;
         let surroundings = LandscapeSurroundings {
             frame: &self.frame,
@@ -179,11 +179,12 @@ impl Renderer {
     fn prepare_clouds(
         &mut self,
         gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
         scene: &Scene,
         target: &FrameTarget,
     ) -> Result<Option<CloudDrawData>, RenderError> {
         let surroundings = CloudSurroundings { frame: &self.frame, tables: &self.tables };
-        self.clouds.prepare(gpu, scene, surroundings, target)
+        self.clouds.prepare(gpu, (encoder, &mut self.timer), scene, surroundings, target)
     }
 
     /// GPU time of each pass of the last frame; waits for it. Empty where the adapter has no timestamps.
@@ -238,6 +239,12 @@ impl Renderer {
     #[must_use]
     pub fn air(&self) -> &AerialVolume {
         &self.air
+    }
+
+    /// The clouds, and what they leave of the light.
+    #[must_use]
+    pub fn clouds(&self) -> &CloudRenderer {
+        &self.clouds
     }
 
     /// The landscape, for tests.

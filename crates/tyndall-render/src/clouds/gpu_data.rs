@@ -27,7 +27,7 @@ pub struct Clouds {
     pub padding: [f32; 2],
 }
 
-/// Twin of `CloudShadow` in `shaders/clouds/shadow.wgsl`; units and meanings there.
+/// Twin of `CloudShadow` in `shaders/clouds/shade.wgsl`; units and meanings there.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[expect(missing_docs, reason = "documented at the WGSL twin")]
@@ -44,6 +44,8 @@ pub struct CloudShadow {
     pub layers: f32,
     pub wraps: u32,
     pub mean: [f32; 3],
+    pub moonlit: u32,
+    pub lamp: [f32; 3],
     pub padding: u32,
 }
 

@@ -3,13 +3,14 @@
 //! What the clouds consist of comes from [`source`], the light in its cells from `tyndall_clouds`, and both stay until they
 //! change. A frame marches
 //! them from the camera to whatever was drawn before, and lays the result over it: sunlight scattered once by its exact phase
-//! function, sunlight scattered more often by diffusion, light of sky and ground as at sea level, and the air between cloud and camera.
+//! function, sunlight scattered more often by diffusion, light of the sky and of the shaded ground at the cloud's altitude, and the air between cloud and camera.
 //!
 //! A wrapped grid repeats to the horizon. What clouds leave of the light is kept as data ([`CloudRenderer::shadow_bindings`]).
 
 mod building;
 pub mod file;
 pub mod gpu_data;
+mod lamp;
 mod report;
 mod shadow;
 mod skip;
@@ -19,14 +20,16 @@ mod volume;
 pub use building::CloudProgress;
 pub use report::{CloudReport, CloudTimes};
 
+use tyndall_clouds::floor_shadow::optical_depth;
 use tyndall_core::array::NamedArrays;
 use tyndall_gpu::wgpu::{self, BufferUsages, TextureUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture, TextureDesc};
 use tyndall_scene::Scene;
 
-use crate::sky::{SkyTables, TableBuilding};
+use crate::sky::{SkyLightReach, SkyLightTable, SkyTables, TableBuilding};
 use crate::{FrameTarget, RenderError, RendererConfig};
 use gpu_data::{Clouds, transport};
+use lamp::Lamp;
 use shadow::CloudShadow;
 use source::CloudSourceRequest;
 use volume::{CloudVolume, LightRequest, VolumeRequest};
@@ -39,6 +42,8 @@ pub struct CloudRenderer {
     sampler: wgpu::Sampler,
     volume: CloudVolume,
     shadow: CloudShadow,
+    /// Light of sky and ground at the clouds' altitudes.
+    light: SkyLightTable,
     /// Copy of the frame without clouds: blending 32-bit floats is not everywhere possible.
     behind: Option<Texture>,
 }
@@ -46,7 +51,7 @@ pub struct CloudRenderer {
 /// Bind groups of one frame's clouds.
 #[derive(Debug)]
 pub struct CloudDrawData {
-    bindings: [wgpu::BindGroup; 3],
+    bindings: [wgpu::BindGroup; 4],
 }
 
 /// What clouds are drawn with.
@@ -92,6 +97,7 @@ impl CloudRenderer {
             sampler,
             volume: CloudVolume::default(),
             shadow: CloudShadow::new(gpu)?,
+            light: SkyLightTable::new(gpu)?,
             behind: None,
         })
     }
@@ -119,6 +125,7 @@ impl CloudRenderer {
     pub fn prepare(
         &mut self,
         gpu: &Gpu,
+        (encoder, timer): (&mut wgpu::CommandEncoder, &mut PassTimer),
         scene: &Scene,
         surroundings: CloudSurroundings<'_>,
         target: &FrameTarget,
@@ -128,11 +135,7 @@ impl CloudRenderer {
             self.volume.rest();
             return Ok(None);
         };
-        let light = LightRequest {
-            to_sun: scene.sun_direction()?.unit().to_array(),
-            sun_radius_rad: scene.sun.angular_radius_deg.to_radians(),
-            transport: transport(&scene.clouds),
-        };
+        let light = LightRequest { lamp: Lamp::of(scene)?, transport: transport(&scene.clouds) };
         let Some(shown) = self.volume.update(gpu, &VolumeRequest { source, light })? else { return Ok(None) };
         let textures = &shown.textures;
         let uniform = Clouds::new(&scene.clouds, &shown.matter);
@@ -140,8 +143,18 @@ impl CloudRenderer {
         self.shadow.update(gpu, Some(&textures.shadow.1));
         let behind = copy_of_frame(gpu, &mut self.behind, target)?;
         let tables = surroundings.tables;
+        let reach = SkyLightReach {
+            distance_m: 1e3 * scene.clouds.reach_km,
+            top_altitude_m: f64::from(uniform.ceiling_m.max(uniform.floor_m)),
+        };
+        self.light.update(gpu, encoder, timer, tables, (scene, reach))?;
         let mut sky = tables.view_bindings().to_vec();
         sky.push(("irradiance_table", tables.irradiance.as_binding()));
+        sky.extend(tables.moon_bindings());
+        sky.extend(self.light.bindings());
+        let shade = self.shadow.bindings(Some([&textures.shadow.0, &textures.cells]));
+        // The march reads the cells itself.
+        let shade: Vec<_> = shade.into_iter().filter(|(name, _)| *name != "cloud_shade_cells").collect();
         let own = [
             ("clouds", self.uniform.as_entire_binding()),
             ("cloud_cells", textures.cells.as_binding()),
@@ -151,8 +164,13 @@ impl CloudRenderer {
             ("cloud_depth", target.depth.as_binding()),
         ];
         let frame = [("frame", surroundings.frame.as_entire_binding())];
-        let bindings =
-            [self.pipeline.bind(gpu, 0, &sky)?, self.pipeline.bind(gpu, 1, &frame)?, self.pipeline.bind(gpu, 2, &own)?];
+        let pipeline = &self.pipeline;
+        let bindings = [
+            pipeline.bind(gpu, 0, &sky)?,
+            pipeline.bind(gpu, 1, &frame)?,
+            pipeline.bind(gpu, 2, &own)?,
+            pipeline.bind(gpu, 3, &shade)?,
+        ];
         Ok(Some(CloudDrawData { bindings }))
     }
 
@@ -160,8 +178,21 @@ impl CloudRenderer {
     /// leave of its light.
     #[must_use]
     pub fn shadow_bindings(&self) -> [(&'static str, wgpu::BindingResource<'_>); 4] {
-        let textures = self.volume.textures().filter(|_| self.shadow.is_of_clouds());
-        self.shadow.bindings(textures.map(|textures| [&textures.shadow.0, &textures.cells]))
+        let shown = self.volume.shown().filter(|_| self.shadow.is_of_clouds());
+        self.shadow.bindings(shown.map(|(shown, _)| [&shown.textures.shadow.0, &shown.textures.cells]))
+    }
+
+    /// Changes with what [`CloudRenderer::shadow_bindings`] hold; 0 without clouds.
+    #[must_use]
+    pub fn shadow_revision(&self) -> u64 {
+        self.volume.shown().filter(|_| self.shadow.is_of_clouds()).map_or(0, |(_, revision)| revision)
+    }
+
+    /// Share of the sun's light that the clouds of the last scene that was prepared leave to a place (m).
+    #[must_use]
+    pub fn sunlight_left(&self, place_m: [f64; 3], to_sun: [f64; 3]) -> f64 {
+        let shown = self.volume.shown().filter(|_| self.shadow.is_of_clouds());
+        shown.map_or(1.0, |(shown, _)| (-optical_depth(&shown.matter, place_m, to_sun)).exp())
     }
 
     /// Records the clouds over what the target's frame shows.

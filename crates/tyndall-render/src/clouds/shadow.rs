@@ -8,6 +8,7 @@ use tyndall_gpu::wgpu::{self, BufferUsages, TextureFormat, TextureUsages};
 use tyndall_gpu::{Buffer, Gpu, Texture, TextureDesc};
 
 use super::gpu_data;
+use super::lamp::Lamp;
 use super::volume::LightRequest;
 use crate::RenderError;
 
@@ -107,7 +108,7 @@ impl gpu_data::CloudShadow {
     #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
     pub(super) fn new(matter: &CloudMatter, light: &LightRequest, levels: &[FloorShadow]) -> Self {
         let Some(map) = levels.first() else { return Self::open_sky() };
-        let LightRequest { to_sun, sun_radius_rad, .. } = light;
+        let Lamp { direction: to_sun, radius_rad, is_moon } = light.lamp;
         let [west, south, floor_m] = matter.low_corner_m;
         let [width, depth, height] = matter.extent_m();
         let cell_m = matter.cell_m;
@@ -119,14 +120,16 @@ impl gpu_data::CloudShadow {
             map_size_m: map.size.map(|texels| (texels as f64 * cell_m) as f32),
             cells_corner_m: [west, south].map(|at| at as f32),
             cells_size_m: [width, depth].map(|side| side as f32),
-            slope: sun_slope(*to_sun).map(|slope| slope as f32),
+            slope: sun_slope(to_sun).map(|slope| slope as f32),
             floor_m: floor_m as f32,
             ceiling_m: (floor_m + height) as f32,
             texel_m: cell_m as f32,
-            spread: (2.0 * sun_radius_rad.tan() / (to_sun[2] / length).max(LOWEST_SUN)) as f32,
+            spread: (2.0 * radius_rad.tan() / (to_sun[2] / length).max(LOWEST_SUN)) as f32,
             layers: matter.extinction_per_m.size()[2] as f32,
             wraps: u32::from(wraps),
             mean: if wraps { mean(map) } else { parts(OPEN_SKY) },
+            moonlit: u32::from(is_moon),
+            lamp: to_sun.map(|part| (part / length) as f32),
             padding: 0,
         }
     }

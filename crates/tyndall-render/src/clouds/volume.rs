@@ -11,6 +11,7 @@ use tyndall_gpu::{Gpu, Texture, TextureDesc};
 
 use super::building::{CloudProgress, Making};
 use super::gpu_data;
+use super::lamp::Lamp;
 use super::report::CloudReport;
 use super::shadow::shadow_map;
 use super::skip::skip_cells;
@@ -33,10 +34,8 @@ pub(super) struct VolumeRequest {
 /// What the light in the clouds follows from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LightRequest {
-    /// Direction to the sun.
-    pub(super) to_sun: [f64; 3],
-    /// Angular radius (rad) of the sun's disc.
-    pub(super) sun_radius_rad: f64,
+    /// Sun or moon.
+    pub(super) lamp: Lamp,
     /// One less the mean cosine of scattering.
     pub(super) transport: f64,
 }
@@ -74,7 +73,8 @@ impl VolumeMaker {
     ) -> Result<Option<Volume>, RenderError> {
         let Some(matter) = self.source.matter_unless(&request.source, is_stale)? else { return Ok(None) };
         let started = Instant::now();
-        let LightRequest { to_sun, transport, .. } = request.light;
+        let LightRequest { lamp, transport } = request.light;
+        let to_sun = lamp.direction;
         let light = cloud_light(&matter.extinction_per_m, matter.cell_m, to_sun, transport, matter.edges)?;
         let texels = texels(&matter.extinction_per_m, &light);
         let shadow = floor_shadow(&matter.extinction_per_m, matter.cell_m, to_sun, transport, matter.edges)?.levels();
@@ -118,6 +118,8 @@ pub(super) struct CloudVolume {
     shown: Option<ShownClouds>,
     /// What could not be made, and why.
     refused: Option<(VolumeRequest, Arc<RenderError>)>,
+    /// Counts what has been shown.
+    revision: u64,
     progress: CloudProgress,
 }
 
@@ -133,9 +135,9 @@ impl CloudVolume {
         (self.shown, self.refused) = (None, None);
     }
 
-    /// The textures that are shown.
-    pub(super) fn textures(&self) -> Option<&CloudTextures> {
-        self.shown.as_ref().map(|shown| &shown.textures)
+    /// What is shown, and its number.
+    pub(super) fn shown(&self) -> Option<(&ShownClouds, u64)> {
+        self.shown.as_ref().map(|shown| (shown, self.revision))
     }
 
     /// How it stands since the last update.
@@ -170,6 +172,7 @@ impl CloudVolume {
     }
 
     fn show(&mut self, gpu: &Gpu, request: VolumeRequest, volume: Volume) -> Result<(), RenderError> {
+        self.revision += 1;
         // The old ones give their memory back first.
         self.shown = None;
         let Volume { matter, texels, shadow, skips, report } = volume;

@@ -80,7 +80,7 @@ pub struct Environment {
     pub rgba: Vec<[f32; 4]>,
     /// Exposure value at ISO 100 of the scene's own picture, metered or manual.
     pub ev100: f64,
-    /// The sun's light at the camera; `None` when no part of its disc is above the horizon.
+    /// The sun's light at the camera, behind clouds where they cover it; `None` when no part of its disc is above the horizon.
     pub sun: Option<SunLight>,
 }
 
@@ -97,7 +97,6 @@ impl Renderer {
         options: EnvironmentOptions,
     ) -> Result<Environment, RenderError> {
         let size_px = options.size_px()?;
-        let sun = SunLight::new(scene)?;
         let ev100 = self.meter_scene(gpu, scene)?;
         let mut scene = scene.clone();
         scene.sun.disc &= options.disc;
@@ -108,7 +107,17 @@ impl Renderer {
             self.render_view(gpu, &scene, View::Panorama, &mut target)?;
             read_light(gpu, &target, options.ground)?
         };
+        let sun = self.sun_behind_clouds(&scene)?;
         Ok(Environment { size_px, rgba, ev100, sun })
+    }
+
+    /// The sun's light at the camera of a scene that was drawn, behind its clouds.
+    fn sun_behind_clouds(&self, scene: &Scene) -> Result<Option<SunLight>, RenderError> {
+        let Some(sun) = SunLight::new(scene)? else { return Ok(None) };
+        let camera = &scene.grounded().camera;
+        let place_m = [camera.x_m, camera.y_m, camera.altitude_m];
+        let left = self.clouds().sunlight_left(place_m, scene.sun_direction()?.unit().to_array());
+        Ok(Some(SunLight { irradiance: sun.irradiance.map(|light| left * light), ..sun }))
     }
 
     /// Exposure value at ISO 100 of the picture of the scene's camera, from a small frame of it.

@@ -178,6 +178,11 @@ impl SkyTables {
         ]
     }
 
+    /// What `sky/moon_sky.wgsl` needs, by the names of its variables.
+    pub(crate) fn moon_bindings(&self) -> [(&'static str, wgpu::BindingResource<'_>); 2] {
+        self.night.moon_bindings()
+    }
+
     /// Forgets what the tables hold, so that the next frame fills them again.
     pub fn invalidate(&mut self) {
         self.filled_for = None;

@@ -64,6 +64,11 @@ impl Night {
         Ok(())
     }
 
+    /// Resources of the shaders that see moonlit air, by their names.
+    pub(super) fn moon_bindings(&self) -> [(&'static str, wgpu::BindingResource<'_>); 2] {
+        [("moon", self.moon.uniform.as_entire_binding()), ("moon_sky", self.moon.sky.as_binding())]
+    }
+
     /// Resources of the shaders that draw the ground, by their names.
     pub(super) fn ground_bindings(&self) -> [(&'static str, wgpu::BindingResource<'_>); 3] {
         [
