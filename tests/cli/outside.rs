@@ -25,13 +25,25 @@ mod signals {
 
     /// A render that takes long enough on any machine, seen to have reached the stage.
     fn start(place: &Place, stage: &str) -> Child {
-        let words = ["render", "preset:noon", "-o", "a.exr", "--size", "2048x2048", "--compression", "piz"];
-        let mut command = place.command(&[&words[..], &["--float", "--progress", "json"]].concat());
+        let words = ["render", "preset:noon", "-o", "a.exr", "--size", "2048x2048", "--compression", "piz", "--float"];
+        start_with(place, &words, stage)
+    }
+
+    /// The program with these words, seen to have told something.
+    fn start_with(place: &Place, words: &[&str], stage: &str) -> Child {
+        let mut command = place.command(&[words, &["--progress", "json"]].concat());
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
         let stdout = child.stdout.take().expect("piped");
         let mut lines = BufReader::new(stdout).lines().map_while(Result::ok);
         assert!(lines.any(|line| line.contains(&format!("\"{stage}\""))), "{stage} is never reached");
         child
+    }
+
+    /// Sends a signal; the exit code.
+    fn end(child: &mut Child, signal: &str) -> Option<i32> {
+        let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().expect("kill runs");
+        assert!(sent.success(), "{signal} was not sent");
+        child.wait().expect("it ends").code()
     }
 
     /// Exit codes of renders that get the signal at each of the stages.
@@ -40,9 +52,7 @@ mod signals {
             let place = Place::new();
             place.write("a.exr", "an older picture");
             let mut child = start(&place, stage);
-            let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().expect("kill runs");
-            assert!(sent.success(), "{signal} was not sent");
-            let code = child.wait().expect("it ends").code();
+            let code = end(&mut child, signal);
             assert_eq!(place.read("a.exr"), b"an older picture", "{signal} while {stage}: the older file is untouched");
             assert_eq!(place.files(), ["a.exr"], "{signal} while {stage}: no temporary file");
             code
@@ -57,5 +67,30 @@ mod signals {
     #[test]
     fn termination_leaves_no_partial_file_and_says_that_the_work_can_be_repeated() {
         assert_eq!(ended_by("-TERM"), [Some(75); 2], "exit codes while {STAGES:?}");
+    }
+
+    #[test]
+    fn ctrl_c_ends_a_simulation_and_leaves_the_older_state() {
+        let place = Place::new();
+        place.write("a.npz", "an older state");
+        let words = ["simulate", "preset:cumulus", "--steps", "10000000", "-o", "a.npz"];
+        let mut child = start_with(&place, &words, "simulating");
+        assert_eq!(end(&mut child, "-INT"), Some(130), "the code of Ctrl-C");
+        assert_eq!(
+            (place.read("a.npz"), place.files()),
+            (b"an older state".to_vec(), vec!["a.npz".to_owned()]),
+            "untouched"
+        );
+    }
+
+    #[test]
+    fn ctrl_c_ends_an_animation_and_leaves_whole_frames() {
+        let place = Place::new();
+        let size = ["--size", "16x16", "--set", "sky.orders=single"];
+        let words = ["render", "preset:noon", "-o", "f-#.png", "--frames", "0-9999"];
+        let mut child = start_with(&place, &[&words[..], &size].concat(), "frame");
+        assert_eq!(end(&mut child, "-INT"), Some(130), "the code of Ctrl-C");
+        let files = place.files();
+        assert!(!files.is_empty() && files.iter().all(|file| image::open(place.path(file)).is_ok()), "{files:?}");
     }
 }

@@ -22,6 +22,8 @@ Examples:
   tyndall presets sunset > evening.toml
   tyndall render evening.toml -o evening.exr --size 1920x1080 --set sun.elevation_deg=2.5
   tyndall hdri preset:noon -o sky.exr --sun lamp
+  tyndall simulate preset:cumulus --steps 200 -o state.npz
+  tyndall volume preset:cumulus -o cloud.vdb
   tyndall validate sky preset:noon
   tyndall params sun
   tyndall doctor";

@@ -26,7 +26,8 @@ Examples:
   tyndall volume preset:cumulus -o balls.csv
 
 VDB: one grid `density`, a fog volume with extinction in 1/m, z up, in metres.
-NPZ: `density` [x, y, z] in 1/m, `cell_m` and `low_corner_m`.
+NPZ: `density` [x, y, z] in 1/m, `cell_m` and `low_corner_m`; as clouds.file it
+wants cloud_matter.extinction_per_m=1, and the cells of cloud_grid.
 CSV, JSON: a ball a line, with its place, radius and extinction in the middle.";
 
 /// What `tyndall volume` takes.
@@ -86,8 +87,14 @@ fn export(arguments: &VolumeArguments, progress: &mut Progress) -> Result<(), Fa
     let mut source = CloudSource::default();
     source.start_from(arguments.start.load(&scene, progress)?);
     progress.share("simulating", 0.0)?;
-    let matter = source.matter(&request).map_err(|error| arguments.start.blame(error.into()))?;
-    interrupt.check()?;
+    let is_stopped = || interrupt.check().is_err();
+    let matter = loop {
+        let made = source.matter_unless(&request, &is_stopped);
+        interrupt.check()?;
+        if let Some(matter) = made.map_err(|error| arguments.start.blame(error.into()))? {
+            break matter;
+        }
+    };
     progress.stage(Stage::File)?;
     let destination = Destination::new(&arguments.output).cancelled_by(interrupt.flag());
     let facts = match write(destination, format, &matter) {
