@@ -9,7 +9,7 @@ use tyndall_tests::{gpu, own_gpu};
 /// A refusal that takes longer has touched memory.
 const AT_ONCE: Duration = Duration::from_secs(1);
 
-fn with_budget(max_memory_bytes: u64) -> Gpu {
+pub(crate) fn with_budget(max_memory_bytes: u64) -> Gpu {
     let name = gpu().adapter().name.clone();
     let options = GpuOptions { adapter: AdapterChoice::Name(name), max_memory_bytes: Some(max_memory_bytes) };
     Gpu::open(&options).expect("the adapter of the other tests")

@@ -6,8 +6,11 @@ use tyndall_dunes::slab::{
 };
 use tyndall_dunes::wind::{Wind, WindSchedule};
 use tyndall_dunes::{Edges, SandDevice, SandSimulation as _};
+use tyndall_gpu::GpuError;
 use tyndall_gpu_sim::{GpuDunes, GpuRipples, GpuSimError};
 use tyndall_tests::gpu;
+
+use crate::memory::with_budget;
 
 /// Winds along the rows, across the lattice, and almost against the first; the sides of the beds that they blow over.
 const WINDS: [(f64, usize); 3] = [(0.0, 128), (37.0, 256), (200.0, 128)];
@@ -167,6 +170,14 @@ fn steps_are_counted_and_drawn_alike_beyond_32_bits() {
     let state = DuneState { step: u32::MAX - 5, ..host.state() };
     host.set_state(state).expect("it is its own");
     assert_equal_after("past the last step", &mut dunes(&host), &mut host, 20);
+}
+
+#[test]
+fn a_bed_that_exceeds_the_memory_is_refused_with_sizes() {
+    let small = with_budget(1 << 20);
+    let error = GpuDunes::new(&small, &field(&DuneParams::default(), [256, 256])).expect_err("11 grids of 256 KiB");
+    assert!(matches!(error, GpuSimError::Gpu(GpuError::OverBudget { budget_bytes: 0x10_0000, .. })), "{error}");
+    assert_eq!(small.used_memory_bytes(), 0, "what was allocated is given back");
 }
 
 #[test]
