@@ -1,6 +1,7 @@
 //! The desktop program without its window, driven through the names that screen readers see.
 
 mod accuracy;
+mod clouds;
 mod device_loss;
 mod documents;
 mod exports;

@@ -9,8 +9,10 @@
 mod action;
 mod app;
 mod banner;
+mod bubble_handles;
 mod chapters;
 mod cloud_clock;
+mod cloud_tools;
 mod commands;
 mod detail;
 mod document;

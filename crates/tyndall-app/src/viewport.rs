@@ -5,6 +5,8 @@ use glam::UVec2;
 use tyndall_scene::{Scene, camera::CameraFrame};
 
 use crate::{
+    bubble_handles,
+    cloud_tools::CloudTools,
     navigation::{DragTool, navigate},
     sky_probe::Sight,
     stage::Stage,
@@ -47,7 +49,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     stage: &mut Stage,
     scene: &mut Scene,
-    options: &ViewportOptions,
+    (options, tools): (&ViewportOptions, &mut CloudTools),
     is_playing: bool,
 ) -> Option<Sight> {
     let size_pt = ui.available_size().max(Vec2::splat(1.0));
@@ -59,7 +61,13 @@ pub(crate) fn show(
         response.request_focus();
     }
 
-    let flying = navigate(ui, &response, &mut scene.camera, options.tool);
+    let primary_down = ui.input(|input| input.pointer.primary_down());
+    let flying = if tools.paints(scene) && primary_down && response.is_pointer_button_down_on() {
+        bubble_handles::paint(ui, &response, scene, tools);
+        false
+    } else {
+        navigate(ui, &response, &mut scene.camera, options.tool)
+    };
     if flying {
         ui.ctx().request_repaint();
     }
@@ -71,6 +79,9 @@ pub(crate) fn show(
         None => drop(ui.painter().rect_filled(rect, CornerRadius::ZERO, ui.visuals().extreme_bg_color)),
     }
     overlay(ui, rect, stage, scene, options);
+    if tools.moves_bubbles(scene) {
+        bubble_handles::show(ui, rect, scene, tools);
+    }
     if stage.is_simulating_long(ui.ctx()) && !is_playing {
         label(ui, rect.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP, "Simulating clouds...");
     }

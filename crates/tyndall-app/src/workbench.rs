@@ -7,6 +7,7 @@ use tyndall_scene::{CloudKind, Preset};
 
 use crate::{
     cloud_clock::CloudClock,
+    cloud_tools::CloudTools,
     document::Document,
     engine::Engine,
     error_meter::{ErrorMeter, Thoroughness},
@@ -49,6 +50,7 @@ pub(crate) struct Workbench {
     pub(crate) time: TimePanel,
     /// Whether the clouds move.
     pub(crate) clouds: CloudClock,
+    cloud_tools: CloudTools,
     probe: SkyProbe,
     meter: ErrorMeter,
     thoroughness: Thoroughness,
@@ -73,6 +75,7 @@ impl Workbench {
             chosen: None,
             time: TimePanel::default(),
             clouds: CloudClock::default(),
+            cloud_tools: CloudTools::default(),
             probe: SkyProbe::default(),
             meter: ErrorMeter::default(),
             thoroughness: Thoroughness::default(),
@@ -120,7 +123,8 @@ impl Workbench {
             return;
         };
         let is_playing = self.time.playback.is_playing || self.clouds.is_playing;
-        let pointed = viewport::show(ui, stage, self.document.scene_mut(), &self.viewport, is_playing);
+        let pointed =
+            viewport::show(ui, stage, self.document.scene_mut(), (&self.viewport, &mut self.cloud_tools), is_playing);
         self.cursor = pointed.or(self.cursor);
     }
 
@@ -133,7 +137,7 @@ impl Workbench {
             Pane::Time => self.time.show(ui, document.scene_mut()),
             Pane::Clouds => {
                 let progress = stage.as_ref().and_then(Stage::engine).map(Engine::clouds);
-                clouds::show(ui, document.scene_mut(), &mut self.clouds, progress);
+                clouds::show(ui, document.scene_mut(), (&mut self.clouds, &mut self.cloud_tools), progress);
             }
             Pane::Export => export::show(ui, document, &mut self.export, exports, dialogs),
             Pane::Gallery => self.chosen = stage.as_ref().and_then(|stage| self.gallery.show(ui, stage)),

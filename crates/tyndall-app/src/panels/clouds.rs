@@ -10,15 +10,23 @@ use super::{
     SCROLL_MARGIN, cloud_figures,
     row::rename,
     signs::{self, Sign},
-    wind,
+    sky_map, wind,
 };
-use crate::cloud_clock::{CloudClock, SPEEDS, clock, next_step_s};
+use crate::{
+    cloud_clock::{CloudClock, SPEEDS, clock, next_step_s},
+    cloud_tools::CloudTools,
+};
 
 /// Least side of a button with a sign.
 const SIGN_PT: f32 = 26.0;
 
 /// Shows the panel; `progress` is how the clouds of the viewport stand.
-pub(crate) fn show(ui: &mut Ui, scene: &mut Scene, clock: &mut CloudClock, progress: Option<&CloudProgress>) {
+pub(crate) fn show(
+    ui: &mut Ui,
+    scene: &mut Scene,
+    (clock, tools): (&mut CloudClock, &mut CloudTools),
+    progress: Option<&CloudProgress>,
+) {
     ScrollArea::vertical().auto_shrink(false).content_margin(SCROLL_MARGIN).show(ui, |ui| {
         presets(ui, scene);
         let none = match scene.clouds.kind {
@@ -33,6 +41,8 @@ pub(crate) fn show(ui: &mut Ui, scene: &mut Scene, clock: &mut CloudClock, progr
         }
         ui.add_space(6.0);
         transport(ui, scene, clock);
+        ui.add_space(6.0);
+        sky_map::show(ui, scene, tools);
         ui.add_space(6.0);
         let Some(progress) = progress else { return };
         let sign = if progress.building && !clock.is_playing { "Simulating..." } else { "" };
@@ -86,9 +96,10 @@ fn hint(pattern: VapourPattern) -> &'static str {
     }
 }
 
-/// The preset of a pattern, on the ground that the scene's grid covers in cells, with its seed.
+/// The preset of a pattern, on the ground that the scene's grid covers in cells, with its seed and its paint.
 fn take_up(scene: &mut Scene, pattern: VapourPattern) {
-    let CloudParams { mut grid, vapour, wind, matter } = pattern.preset();
+    let CloudParams { mut grid, mut vapour, wind, matter } = pattern.preset();
+    vapour.painted.clone_from(&scene.cloud_vapour.painted);
     let old = &scene.cloud_grid;
     (grid.cells_east, grid.cells_north, grid.seed, grid.edges) = (old.cells_east, old.cells_north, old.seed, old.edges);
     grid.warm_up_steps = old.warm_up_steps;

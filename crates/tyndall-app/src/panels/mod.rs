@@ -12,11 +12,12 @@ pub(crate) mod parameters;
 pub(crate) mod plots;
 pub(crate) mod row;
 mod signs;
+mod sky_map;
 mod text_row;
 pub(crate) mod time;
 pub(crate) mod timings;
 pub(crate) mod validate;
-mod wind;
+pub(crate) mod wind;
 
 /// Room beside the contents of a list for its scroll bar.
 pub(crate) const SCROLL_MARGIN: egui::Margin = egui::Margin { left: 4, right: 10, top: 0, bottom: 0 };

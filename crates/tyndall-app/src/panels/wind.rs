@@ -59,7 +59,7 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene) {
 /// A new node where the wind is already.
 fn put_on_the_line(wind: &mut CloudWindParams) {
     wind.middle = false;
-    let [east, north] = at(wind, wind.middle_share);
+    let [east, north] = wind_m_s(wind, wind.middle_share);
     wind.middle_speed_m_s = east.hypot(north);
     wind.middle_from_deg = (-east).atan2(-north).to_degrees().rem_euclid(360.0);
     wind.middle = true;
@@ -184,7 +184,7 @@ fn put(wind: &mut CloudWindParams, name: &str, value: f64) {
 }
 
 /// Wind east and north (m/s) at a share of the height: linear between nodes, as the simulation has it.
-fn at(wind: &CloudWindParams, share: f64) -> [f64; 2] {
+pub(crate) fn wind_m_s(wind: &CloudWindParams, share: f64) -> [f64; 2] {
     let nodes = nodes(wind);
     let vector = |node: Node| {
         let [speed_m_s, height] = knot(wind, node, Quantity::Speed);
@@ -202,7 +202,7 @@ fn curve(wind: &CloudWindParams, quantity: Quantity) -> Vec<Vec<[f64; 2]>> {
     let mut pieces: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
     for step in 0..=PIECES {
         let share = f64::from(step) / f64::from(PIECES);
-        let [east, north] = at(wind, share);
+        let [east, north] = wind_m_s(wind, share);
         let value = match quantity {
             Quantity::Speed => east.hypot(north),
             Quantity::From => (-east).atan2(-north).to_degrees().rem_euclid(360.0),
@@ -225,11 +225,11 @@ mod tests {
     #[test]
     fn a_new_node_changes_no_wind() {
         let mut wind = CloudWindParams { floor_from_deg: 350.0, ceiling_from_deg: 40.0, ..CloudWindParams::default() };
-        let before: Vec<_> = (0..=10).map(|i| at(&wind, 0.1 * f64::from(i))).collect();
+        let before: Vec<_> = (0..=10).map(|i| wind_m_s(&wind, 0.1 * f64::from(i))).collect();
         wind.middle_share = 0.3;
         put_on_the_line(&mut wind);
         for (i, old) in (0..).zip(&before) {
-            let new = at(&wind, 0.1 * f64::from(i));
+            let new = wind_m_s(&wind, 0.1 * f64::from(i));
             assert!((new[0] - old[0]).hypot(new[1] - old[1]) < 1e-9, "{new:?} {old:?}");
         }
         assert!(wind.middle, "there is a node now");
