@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use tyndall_io::read_npy;
+use tyndall_render::clouds::reference::{CloudAccuracy, CloudReference};
 use tyndall_render::environment::sun_above_air;
 use tyndall_scene::{Scene, SceneFile};
 use tyndall_tests::shared_data;
@@ -17,6 +18,15 @@ fn over_sun(studio: &mut Studio, scene: &Scene) -> Vec<f64> {
     let [_, green, _] = sun_above_air(scene).expect("a sun");
     let size_px = [scene.image.width_px, scene.image.height_px];
     studio.radiance(scene, size_px).iter().map(|pixel| f64::from(pixel[1]) / green).collect()
+}
+
+/// The scene of the known cloud; `None` without the reference data.
+fn known_scene() -> Option<Scene> {
+    let data = shared_data("clouds/ca_cloud_scene.npz")?;
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/reference_cloud.toml");
+    let mut scene = SceneFile::load(file).expect("the scene is right").scene;
+    scene.clouds.file = data.display().to_string();
+    Some(scene)
 }
 
 /// The committed cloud from the south, along parallel lines of sight.
@@ -52,10 +62,7 @@ fn the_known_cloud_is_that_of_an_independent_march_within_50_db() {
         }
         other => panic!("32-bit floats: {} others", other.len()),
     };
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/reference_cloud.toml");
-    let mut scene = SceneFile::load(file).expect("the scene is right").scene;
-    scene.folder = shared_data("clouds").expect("it is there");
-    "ca_cloud_scene.npz".clone_into(&mut scene.clouds.file);
+    let scene = known_scene().expect("its cloud is beside it");
     let found = over_sun(&mut Studio::new(), &scene);
     let peak = wanted.iter().copied().fold(0.0, f64::max);
     // Pixels with cloud: where the reference is not black.
@@ -96,4 +103,45 @@ fn moving_an_orthographic_camera_by_a_pixel_moves_the_picture_by_a_pixel() {
         total += here[before];
     }
     assert!(total > 0.0 && gap < 0.03 * total, "{gap} of {total}");
+}
+
+/// Accuracy of the picture of the known cloud against random walks; `None` without the reference data.
+fn accuracy(changes: &[(&str, &str)], bin: usize) -> Option<CloudAccuracy> {
+    let mut scene = known_scene()?;
+    for (path, value) in changes {
+        scene.set_text(path, value).unwrap_or_else(|error| panic!("{error}"));
+    }
+    let reference = CloudReference::new(&scene).expect("a scene").expect("clouds");
+    let truth: Vec<_> = (0..scene.image.height_px).flat_map(|y| reference.row(y, (64, 1))).collect();
+    let picture = over_sun(&mut Studio::new(), &scene);
+    CloudAccuracy::of(&picture, &truth, scene.image.width_px as usize, bin)
+}
+
+/// What the notes call oblique: light from behind and from the right, scattered strongly forward.
+const OBLIQUE: [(&str, &str); 3] =
+    [("sun.elevation_deg", "35"), ("sun.azimuth_deg", "135"), ("clouds.forward_asymmetry", "0.85")];
+
+#[test]
+fn the_picture_of_single_scattering_has_the_mean_of_random_walks_under_any_sun() {
+    for (name, changes, bin) in [("overhead, even", &[][..], 2), ("oblique, forward", &OBLIQUE[..], 4)] {
+        let size = [("image.width_px", "96"), ("image.height_px", "32")];
+        let Some(found) = accuracy(&[changes, &size].concat(), bin) else { return };
+        println!("{name}, once: {found:?}");
+        // Pixels are cut at their centres and twice as wide as those of the known picture.
+        assert!((found.mean_ratio - 1.0).abs() < 0.03 && found.correlation > 0.99, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn the_picture_of_all_orders_has_the_pattern_of_random_walks_and_no_less_light() {
+    let all = ("clouds.orders", "all");
+    let size = [("image.width_px", "96"), ("image.height_px", "32")];
+    for (name, changes, bin) in
+        [("overhead, even", &[all][..], 1), ("oblique, forward", &[&OBLIQUE[..], &[all]].concat(), 4)]
+    {
+        let Some(found) = accuracy(&[changes, &size].concat(), bin) else { return };
+        println!("{name}, all orders: {found:?}");
+        // Light that leaves a lone cloud through its sides is counted as if it stayed: too bright, not too dark.
+        assert!(found.correlation > 0.85 && found.mean_ratio > 0.9, "{name}: {found:?}");
+    }
 }

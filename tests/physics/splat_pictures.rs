@@ -70,7 +70,7 @@ fn the_known_cloud_lets_as_much_light_through_as_in_a_march() {
     let planes = splats(&lit, &view);
     for index in (0..SIZE_PX[0] * SIZE_PX[1]).step_by(17) {
         let (column, row) = (index % SIZE_PX[0], index / SIZE_PX[0]);
-        let place = [(column as f64 + 0.5) / 2.0, CELLS[2] - (row as f64 + 0.5) / 2.0];
+        let place = [0.5 * (column as f64 + 0.5), CELLS[2] - 0.5 * (row as f64 + 0.5)];
         let gap = f64::from(planes.pixel(column, row).transmittance) - marched_balls(&balls.balls, place);
         assert!(gap.abs() < 1.0 / 255.0, "({column}, {row}): off by {gap}");
     }

@@ -1,5 +1,7 @@
 //! `tyndall validate`: how far the tables are from Monte-Carlo on the user's own scene.
 
+mod clouds;
+
 use std::fmt::Write as _;
 
 use clap::builder::RangedU64ValueParser;
@@ -12,6 +14,8 @@ use crate::probe::Detail;
 use crate::progress::{Progress, ProgressFormat};
 use crate::scene_arguments::SceneArguments;
 use crate::{Exit, Failure, output};
+
+pub use clouds::ValidateCloudsArguments;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -36,6 +40,8 @@ pub struct ValidateArguments {
 pub enum Validate {
     /// The sky of a scene: its atmosphere, sun and camera's altitude
     Sky(ValidateSkyArguments),
+    /// The clouds of a scene: its camera and sun, before a black sky
+    Clouds(ValidateCloudsArguments),
 }
 
 /// What `tyndall validate sky` takes.
@@ -80,7 +86,13 @@ fn parse_percent(text: &str) -> Result<f64, String> {
 /// # Errors
 /// Everything that can be wrong with scene and options, and an error above its limit.
 pub fn run(arguments: &ValidateArguments) -> Result<(), Failure> {
-    let Validate::Sky(arguments) = &arguments.what;
+    match &arguments.what {
+        Validate::Sky(arguments) => sky(arguments),
+        Validate::Clouds(arguments) => clouds::run(arguments),
+    }
+}
+
+fn sky(arguments: &ValidateSkyArguments) -> Result<(), Failure> {
     let scene = arguments.scene.load()?.grounded();
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
     let report = compare(arguments, &scene, &interrupt)?;

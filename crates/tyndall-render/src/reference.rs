@@ -6,8 +6,10 @@ use tyndall_scattering::geometry::{Ray, distance_to_ground};
 use tyndall_scattering::monte_carlo::PictureWalks;
 use tyndall_scattering::params::GroundPattern;
 use tyndall_scene::camera::CameraFrame;
-use tyndall_scene::{LandscapeKind, MoonPosition, Scene};
+use tyndall_scene::{CloudKind, LandscapeKind, MoonPosition, Scene, SkyKind};
 
+use crate::clouds::reference::{self as clouds, CloudReference};
+use crate::environment::sun_above_air;
 use crate::{RenderError, SKY_DEPTH_M};
 
 /// Elevation of the sun (rad) below which stars are seen.
@@ -30,13 +32,18 @@ pub fn left_out(scene: &Scene) -> Vec<&'static str> {
     // By day nobody misses the stars.
     let dark = scene.sun_direction().is_ok_and(|sun| sun.elevation_rad < STARS_BELOW);
     let parts = [
-        ("the sun's disc", scene.sun.disc),
-        ("the moon and its light", scene.moon.position != MoonPosition::None),
+        ("the sun's disc", scene.sun.disc && scene.sky.kind == SkyKind::Air),
+        ("the moon and its light", scene.moon.position != MoonPosition::None && scene.sky.kind == SkyKind::Air),
         ("stars and airglow", scene.stars.visible && dark),
         ("the landscape", scene.landscape.kind != LandscapeKind::None),
+        (
+            "the clouds (only before a black sky)",
+            scene.clouds.kind != CloudKind::None && scene.sky.kind == SkyKind::Air,
+        ),
         ("the ground's pattern", scene.ground.pattern != GroundPattern::Plain),
     ];
-    parts.into_iter().filter_map(|(name, present)| present.then_some(name)).collect()
+    let of_clouds = if scene.sky.kind == SkyKind::Black { clouds::left_out(scene) } else { Vec::new() };
+    parts.into_iter().filter_map(|(name, present)| present.then_some(name)).chain(of_clouds).collect()
 }
 
 /// Renders with `paths` random walks a pixel, through the pixel's centre. `progress` is told the share that is done and
@@ -50,6 +57,9 @@ pub fn render_reference(
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Option<ReferencePicture>, RenderError> {
     scene.check()?;
+    if scene.sky.kind == SkyKind::Black {
+        return render_clouds(scene, (paths, seed), progress);
+    }
     let scene = scene.grounded();
     let mut atmosphere = scene.model();
     for solar in &mut atmosphere.solar_irradiance_w_m2_nm {
@@ -78,6 +88,28 @@ pub fn render_reference(
             rgba.push(opaque(rec709_from_spectrum(&spectrum)));
         }
     }
+    Ok(Some(ReferencePicture { size_px, rgba, depth_m }))
+}
+
+/// The clouds alone, lit by the sun above the air.
+fn render_clouds(
+    scene: &Scene,
+    walks: (u32, u64),
+    progress: &mut dyn FnMut(f64) -> bool,
+) -> Result<Option<ReferencePicture>, RenderError> {
+    let size_px = [scene.image.width_px, scene.image.height_px];
+    let sun = sun_above_air(scene)?;
+    let clouds = CloudReference::new(scene)?;
+    let mut rgba = Vec::with_capacity(size_px[0] as usize * size_px[1] as usize);
+    for y in 0..size_px[1] {
+        if !progress(f64::from(y) / f64::from(size_px[1])) {
+            return Ok(None);
+        }
+        let row = clouds.as_ref().map(|clouds| clouds.row(y, walks));
+        let light = |x: u32| row.as_ref().map_or(0.0, |row| row[x as usize].radiance);
+        rgba.extend((0..size_px[0]).map(|x| opaque(sun.map(|channel| channel * light(x)))));
+    }
+    let depth_m = vec![SKY_DEPTH_M; rgba.len()];
     Ok(Some(ReferencePicture { size_px, rgba, depth_m }))
 }
 

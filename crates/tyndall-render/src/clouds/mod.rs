@@ -11,6 +11,7 @@ mod building;
 pub mod file;
 pub mod gpu_data;
 mod lamp;
+pub mod reference;
 mod report;
 mod shadow;
 mod skip;
