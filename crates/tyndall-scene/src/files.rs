@@ -73,7 +73,7 @@ mod tests {
         assert_eq!(file.scene.differences(&Scene::default()), ["clouds.array=density"], "for the command line");
         let refused = |result: Result<(), crate::SceneError>| result.unwrap_err().to_string();
         assert_eq!(refused(file.scene.set("clouds.array", 1.0)), "`clouds.array` is a text, not a number");
-        assert!(refused(file.scene.set_text("clouds.aray", "x")).contains("did you mean `clouds.array`"), "nearest");
+        assert!(refused(file.scene.set_text("clouds.arrays", "x")).contains("did you mean `clouds.array`"), "nearest");
         let wrong = SceneFile::parse("a.toml", "format = 1\n[clouds]\nfile = 3\n").unwrap_err().to_string();
         assert!(wrong.starts_with("a.toml:3:8: ") && wrong.contains("a line of text"), "{wrong}");
     }
