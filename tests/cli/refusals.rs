@@ -19,7 +19,7 @@ fn missing_and_unknown_scenes_are_refused() {
 
 #[test]
 fn unknown_formats_and_options_of_other_formats_are_refused() {
-    refused(&["preset:noon", "-o", "a.tiff"], 2, ".png, .exr, .jpg or .jpeg");
+    refused(&["preset:noon", "-o", "a.tiff"], 2, ".png, .exr, .npy, .jpg or .jpeg");
     refused(&["preset:noon", "-o", "a.png", "--float"], 2, "--float concerns EXR files only");
     refused(&["preset:noon", "-o", "a.exr", "--bits", "16"], 2, "--bits concerns PNG files only");
     refused(&["preset:noon", "-o", "a.exr", "--half", "--float"], 2, "cannot be used with");
