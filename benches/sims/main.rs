@@ -6,6 +6,7 @@ mod dunes;
 mod gpu_sand;
 mod lookups;
 mod naive_clouds;
+mod splats;
 mod tables;
 
 use anyhow::{Result, ensure};
@@ -55,7 +56,7 @@ fn main() -> Result<()> {
     print_line(&format!("{threads} CPU threads; microseconds a call, and how many times faster than the first way"))?;
     print_line(&format!("{:<34} {:<28} {:>12} {:>12} {:>9}", "", "", "median", "p95", "ratio"))?;
 
-    let runs: [(&str, Run); 16] = [
+    let runs: [(&str, Run); 18] = [
         (lookups::COLUMNS, lookups::columns),
         (lookups::DIRECTION, lookups::direction),
         (lookups::IRRADIANCE, lookups::irradiance),
@@ -66,6 +67,8 @@ fn main() -> Result<()> {
         (clouds::STEP, clouds::step),
         (clouds::FRAME, clouds::frame),
         (clouds::LARGE, clouds::large),
+        (splats::LARGE, splats::large),
+        (splats::MANY, splats::many),
         (dunes::RIPPLES, dunes::ripples),
         (dunes::DUNES, dunes::dunes),
         (dunes::GROWN_DUNES, dunes::grown_dunes),

@@ -100,6 +100,10 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "sky/sun_columns.wgsl",
     "sky/sun_disc.wgsl",
     "sky/view.wgsl",
+    "splats/billboard.wgsl",
+    "splats/column.wgsl",
+    "splats/splats.wgsl",
+    "splats/view.wgsl",
 ];
 
 #[cfg(test)]

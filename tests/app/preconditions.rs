@@ -248,6 +248,7 @@ pub(crate) const ALL: &[Precondition] = &[
         prepare: cloudy,
         parameters: &[
             ("clouds.kind", Some(0.0)),
+            ("clouds.method", None),
             ("clouds.time_s", Some(400.0)),
             ("clouds.reach_km", Some(2.0)),
             ("clouds.orders", None),

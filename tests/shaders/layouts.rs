@@ -12,6 +12,7 @@ use tyndall_render::frame::gpu_data::Frame;
 use tyndall_render::landscape::gpu_data::Landscape;
 use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyLight, SkyView};
 use tyndall_render::sky::night::gpu_data::{Airglow, Moon, Refraction, Stars};
+use tyndall_render::splats::gpu_data::{SplatBall, SplatCamera};
 
 use crate::modules::{Module, assert_no_faults, faults_in, valid};
 
@@ -89,6 +90,22 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
         ripples(),
         ("Refraction", rust_layout!(Refraction { lift, horizon_elevation, padding0, padding1, padding2 })),
         sky_view(),
+        (
+            "SplatBall",
+            rust_layout!(SplatBall {
+                centre_m,
+                radius_m,
+                extent,
+                peak,
+                distance_m,
+                sun_depth,
+                forward,
+                diffuse,
+                sky,
+                slope,
+            }),
+        ),
+        ("SplatCamera", rust_layout!(SplatCamera { half, perspective, transport, near_m, padding })),
     ]
 }
 

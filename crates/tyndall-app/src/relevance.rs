@@ -1,8 +1,8 @@
 //! Which parameters have no effect at present, and why: the app shows those disabled.
 
 use tyndall_scene::{
-    AerosolInput, CameraProjection, CloudFileHolds, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition,
-    Orders, Scene, SkyMode, SunPosition,
+    AerosolInput, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, ExposureMode, LandscapeKind, MoonPhase,
+    MoonPosition, Orders, Scene, SkyMode, SunPosition,
 };
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
@@ -73,6 +73,9 @@ fn clouds(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
         }
         ("clouds", "file_ball_place" | "file_samples") if !holds_balls => {
             Some("The file holds the cloud itself; set File holds to balls.")
+        }
+        ("clouds", "detail") if clouds.method == CloudMethod::Splats => {
+            Some("Metaballs are smooth; set Method to volume.")
         }
         ("clouds", "time_s") | ("cloud_vapour" | "cloud_wind", _) if from_file => Some(STILL),
         ("cloud_grid", "cells_east" | "cells_north" | "cells_up" | "seed" | "warm_up_steps" | "step_s")

@@ -67,7 +67,8 @@ impl Gpu {
     fn from_adapter(adapter: &wgpu::Adapter, max_memory_bytes: Option<u64>) -> Result<Self, GpuError> {
         let desc = wgpu::DeviceDescriptor {
             label: Some("tyndall"),
-            required_features: wgpu::Features::TIMESTAMP_QUERY & adapter.features(),
+            required_features: (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_BLENDABLE)
+                & adapter.features(),
             required_limits: wanted_limits(&adapter.limits()),
             ..Default::default()
         };

@@ -24,6 +24,7 @@ pub mod landscape;
 pub mod reference;
 mod renderer;
 pub mod sky;
+pub mod splats;
 mod target;
 pub mod tone;
 mod view;

@@ -18,6 +18,7 @@ use crate::frame::{frame_uniform, gpu_data};
 use crate::landscape::{LandscapeDrawData, LandscapeRenderer, LandscapeSurroundings};
 use crate::sky::gpu_data::{Atmosphere as AtmosphereUniform, SkyView};
 use crate::sky::{OrdersRequest, SkyLightTable, SkyRenderer, SkyTables, TableBuilding, TableProgress};
+use crate::splats::SplatRasteriser;
 use crate::{FrameTarget, RenderError, RendererConfig, View};
 
 /// Passes that a frame can have: five tables, light on surfaces and clouds, the air, three of the landscape, scene, clouds, meter, development.
@@ -108,6 +109,8 @@ impl Renderer {
         let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), &frame)?;
         self.record_scene(gpu, &mut encoder, (scene, landscape), target)?;
         if let Some(clouds) = &clouds {
+            let recording = (&mut encoder, &mut self.timer);
+            self.clouds.draw_splats(gpu, recording, (clouds, scene, view), target)?;
             self.clouds.record(&mut encoder, &mut self.timer, clouds, target);
         }
         if view != View::Panorama {
@@ -269,6 +272,11 @@ impl Renderer {
     #[must_use]
     pub fn table_progress(&self) -> TableProgress {
         self.tables.orders().progress()
+    }
+
+    /// Chooses who draws clouds of splats, for tests and timings.
+    pub fn set_splat_rasteriser(&mut self, rasteriser: SplatRasteriser) {
+        self.clouds.set_splat_rasteriser(rasteriser);
     }
 
     /// Forgets the tables, so that the next frame fills them again; for timing.

@@ -16,6 +16,7 @@ mod report;
 mod shadow;
 mod skip;
 pub mod source;
+mod splats;
 mod volume;
 
 pub use building::CloudProgress;
@@ -25,14 +26,16 @@ use tyndall_clouds::floor_shadow::optical_depth;
 use tyndall_core::array::NamedArrays;
 use tyndall_gpu::wgpu::{self, BufferUsages, TextureUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture, TextureDesc};
-use tyndall_scene::Scene;
+use tyndall_scene::{CloudMethod, Scene};
 
 use crate::sky::{SkyLightReach, SkyLightTable, SkyTables, TableBuilding};
-use crate::{FrameTarget, RenderError, RendererConfig};
+use crate::splats::SplatRasteriser;
+use crate::{FrameTarget, RenderError, RendererConfig, View};
 use gpu_data::{Clouds, transport};
 use lamp::Lamp;
 use shadow::CloudShadow;
 use source::CloudSourceRequest;
+use splats::CloudSplats;
 use volume::{CloudVolume, LightRequest, VolumeRequest};
 
 /// The pipeline, the simulation and its textures.
@@ -42,6 +45,7 @@ pub struct CloudRenderer {
     uniform: Buffer,
     sampler: wgpu::Sampler,
     volume: CloudVolume,
+    splats: CloudSplats,
     shadow: CloudShadow,
     /// Light of sky and ground at the clouds' altitudes.
     light: SkyLightTable,
@@ -52,6 +56,7 @@ pub struct CloudRenderer {
 /// Bind groups of one frame's clouds.
 #[derive(Debug)]
 pub struct CloudDrawData {
+    method: CloudMethod,
     bindings: [wgpu::BindGroup; 4],
 }
 
@@ -97,6 +102,7 @@ impl CloudRenderer {
             uniform: gpu.buffer("clouds", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
             sampler,
             volume: CloudVolume::default(),
+            splats: CloudSplats::new(gpu, config)?,
             shadow: CloudShadow::new(gpu)?,
             light: SkyLightTable::new(gpu)?,
             behind: None,
@@ -156,23 +162,29 @@ impl CloudRenderer {
         let shade = self.shadow.bindings(Some([&textures.shadow.0, &textures.cells]));
         // The march reads the cells itself.
         let shade: Vec<_> = shade.into_iter().filter(|(name, _)| *name != "cloud_shade_cells").collect();
-        let own = [
-            ("clouds", self.uniform.as_entire_binding()),
-            ("cloud_cells", textures.cells.as_binding()),
-            ("cloud_sampler", wgpu::BindingResource::Sampler(&self.sampler)),
-            ("cloud_skips", textures.skips.as_binding()),
-            ("cloud_behind", behind.as_binding()),
-            ("cloud_depth", target.depth.as_binding()),
-        ];
+        let mut own = vec![("clouds", self.uniform.as_entire_binding()), ("cloud_behind", behind.as_binding())];
+        own.push(("cloud_depth", target.depth.as_binding()));
+        let method = scene.clouds.method;
+        let pipeline = if method == CloudMethod::Splats {
+            let (pipeline, [once, often]) = self.splats.prepare(gpu, (scene, light.lamp), &shown.matter, target)?;
+            own.extend([("splat_once", once.as_binding()), ("splat_often", often.as_binding())]);
+            pipeline
+        } else {
+            own.extend([
+                ("cloud_cells", textures.cells.as_binding()),
+                ("cloud_sampler", wgpu::BindingResource::Sampler(&self.sampler)),
+                ("cloud_skips", textures.skips.as_binding()),
+            ]);
+            &self.pipeline
+        };
         let frame = [("frame", surroundings.frame.as_entire_binding())];
-        let pipeline = &self.pipeline;
         let bindings = [
             pipeline.bind(gpu, 0, &sky)?,
             pipeline.bind(gpu, 1, &frame)?,
             pipeline.bind(gpu, 2, &own)?,
             pipeline.bind(gpu, 3, &shade)?,
         ];
-        Ok(Some(CloudDrawData { bindings }))
+        Ok(Some(CloudDrawData { method, bindings }))
     }
 
     /// What `clouds/shadow.wgsl` needs, by the names of its variables: what the clouds of the last scene that was prepared
@@ -196,6 +208,29 @@ impl CloudRenderer {
         shown.map_or(1.0, |(shown, _)| (-optical_depth(&shown.matter, place_m, to_sun)).exp())
     }
 
+    /// Draws what clouds of splats need, up to the depth of what was recorded so far; nothing for those that are marched. May
+    /// submit what was recorded and begin the encoder anew.
+    ///
+    /// # Errors
+    /// When memory does not suffice or the device is lost.
+    pub fn draw_splats(
+        &mut self,
+        gpu: &Gpu,
+        recording: (&mut wgpu::CommandEncoder, &mut PassTimer),
+        (data, scene, view): (&CloudDrawData, &Scene, View),
+        target: &FrameTarget,
+    ) -> Result<(), RenderError> {
+        if data.method == CloudMethod::Splats {
+            self.splats.draw(gpu, recording, (scene, view), target)?;
+        }
+        Ok(())
+    }
+
+    /// Chooses who draws clouds of splats; at first the CPU where the adapter is a software one.
+    pub fn set_splat_rasteriser(&mut self, rasteriser: SplatRasteriser) {
+        self.splats.renderer_mut().set_rasteriser(rasteriser);
+    }
+
     /// Records the clouds over what the target's frame shows.
     pub fn record(
         &self,
@@ -217,7 +252,8 @@ impl CloudRenderer {
             timestamp_writes: timer.render_writes("clouds"),
             ..Default::default()
         });
-        pass.set_pipeline(self.pipeline.raw());
+        let pipeline = if data.method == CloudMethod::Splats { self.splats.pipeline() } else { &self.pipeline };
+        pass.set_pipeline(pipeline.raw());
         for (index, group) in (0..).zip(&data.bindings) {
             pass.set_bind_group(index, group, &[]);
         }

@@ -15,7 +15,7 @@ mod unit;
 
 use tyndall_core::spectrum::rec709_from_spectrum;
 use tyndall_gpu::Gpu;
-use tyndall_scene::{LandscapeKind, Scene, SkyMode};
+use tyndall_scene::{CloudKind, CloudMethod, LandscapeKind, Scene, SkyMode};
 
 pub use sun_light::SunLight;
 pub use unit::{BLENDER_LUMENS_PER_WATT, LightUnit};
@@ -136,7 +136,8 @@ impl Renderer {
 
 /// Whether a panorama cannot be drawn pixel by pixel, because something stands in the scene as triangles.
 fn is_rasterized(scene: &Scene) -> bool {
-    scene.sky.mode == SkyMode::VertexDome || scene.landscape.kind != LandscapeKind::None
+    let splats = scene.clouds.kind != CloudKind::None && scene.clouds.method == CloudMethod::Splats;
+    splats || scene.sky.mode == SkyMode::VertexDome || scene.landscape.kind != LandscapeKind::None
 }
 
 /// Radiance of a target (cd/m^2), black where the ground is if so wanted.

@@ -26,11 +26,23 @@ choices! {
     }
 }
 
+choices! {
+    /// How clouds are drawn.
+    pub enum CloudMethod {
+        /// By a march through their grid at every pixel.
+        Volume = "volume",
+        /// As metaballs on billboards, as in the paper; smooth and fast.
+        Splats = "splats",
+    }
+}
+
 params! {
     /// Clouds in the sky. The grid is centred on the scene's origin.
     pub struct CloudsParams {
         /// What the clouds are made by.
         kind: CloudKind = CloudKind::None, "paper section 3";
+        /// How clouds are drawn: marched, or as the paper's metaballs on billboards, which are faster without a GPU and smoother.
+        method: CloudMethod = CloudMethod::Volume, "paper section 3.3";
         /// Time since the end of the warm-up: clouds drift, form and vanish.
         time_s: f64 = 0.0, ["s", 0.0..=100000.0, Linear], "paper section 3.2";
         /// Distance from the camera up to which clouds are drawn.

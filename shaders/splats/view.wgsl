@@ -1,0 +1,31 @@
+// Lays splats over the frame: their shares of light take the place of what a march gathers.
+// @import clouds/view.wgsl
+
+@group(2) @binding(20) var splat_once: texture_2d<f32>;  // direct sunlight, distance (m), 0, transmittance
+@group(2) @binding(21) var splat_often: texture_2d<f32>; // scattered forward, often (1/sr), of the sky, transmittance
+
+/// The light that reaches a pixel from the splats.
+fn splat_light(direction: vec3<f32>, pixel: vec2<u32>) -> CloudLight {
+    let once = textureLoad(splat_once, pixel, 0);
+    let often = f32(clouds.all_orders) * (textureLoad(splat_often, pixel, 0) - vec4<f32>(0.0, 0.0, 0.0, 1.0));
+    let phases = cloud_phases(cloud_shade_cosine(direction));
+    let sun = once.x * phases.x + often.x * phases.y + often.y;
+    let distance_m = once.y / max(1.0 - once.w, 1e-6);
+    let behind = f32(clouds.all_orders) * (1.0 - once.w) + often.w;
+    return CloudLight(sun, often.z, -often.w - often.z, once.w, distance_m, behind);
+}
+
+@fragment
+fn splat_over(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let pixel = vec2<u32>(position.xy);
+    let direction = frame_direction(frame_plane(position));
+    cloud_eye_m = vec3<f32>(frame.position_m.xy, sky_view.observer_altitude_m) + frame_eye(frame_plane(position));
+    let light = splat_light(direction, pixel);
+    if (light.transmittance > 0.9999) {
+        discard;
+    }
+    let air = cloud_air(direction, light.distance_m);
+    let over = air.transmittance * cloud_radiance(direction, light, pixel) + air.veil * (1.0 - light.transmittance);
+    let behind = textureLoad(cloud_behind, pixel, 0).xyz * light.transmittance;
+    return vec4<f32>(min(behind + over * frame.pre_exposure, vec3<f32>(frame.largest)), 1.0);
+}
