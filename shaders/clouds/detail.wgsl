@@ -1,44 +1,33 @@
-// Turbulence finer than a cell: billows that cut into the edges of clouds and leave their middles as they are.
+// Turbulence finer than a cell, which keeps the mean density: tyndall_clouds::turbulence.
 // @import clouds/clouds.wgsl
-// @import common/noise.wgsl
+// @import common/erosion.wgsl
 
-/// Wavelength of the coarsest billows over the side of a cell.
-const CLOUD_BILLOW_CELLS: f32 = 7.0;
-const CLOUD_BILLOW_OCTAVES: u32 = 4u;
-/// Share of a cloud's extinction that the deepest billows cut away, and over which an edge rises.
-const CLOUD_BILLOW_DEPTH: f32 = 0.7;
-const CLOUD_EDGE: f32 = 0.12;
+@group(2) @binding(5) var cloud_billows: texture_3d<f32>;
+@group(2) @binding(6) var cloud_billow_sampler: sampler;
 
-/// Billows of 0..1 at a place in cells, for a footprint in cells, below which none are seen.
-fn cloud_billows(place: vec3<f32>, footprint: f32) -> f32 {
-    var at = place / CLOUD_BILLOW_CELLS;
-    var wavelength = CLOUD_BILLOW_CELLS;
-    var sum = 0.0;
-    var weight = 0.5;
-    for (var octave = 0u; octave < CLOUD_BILLOW_OCTAVES; octave++) { // loops: CLOUD_BILLOW_OCTAVES
-        let seen = clamp(0.5 * wavelength / max(footprint, 1e-3) - 1.0, 0.0, 1.0);
-        // Unseen octaves count with their mean, so that clouds keep their size with distance.
-        let value = select(0.5, 1.0 - abs(2.0 * noise_value(at) - 1.0), seen > 0.0);
-        sum += weight * mix(0.5, value, seen);
-        at = 2.03 * at.yzx + vec3<f32>(17.3, 5.1, 9.7);
-        wavelength /= 2.03;
-        weight *= 0.5;
-    }
-    return sum / (1.0 - weight * 2.0);
+/// Side of the tile (cells), and of its texels.
+const CLOUD_TILE_CELLS: f32 = 20.0;
+const CLOUD_TILE_TEXELS: f32 = 128.0;
+/// Mip levels from which on lobes are no longer seen, and that over which they fade.
+const CLOUD_LAST_LEVEL: f32 = 4.0;
+/// Sharpest edge, in shares.
+const CLOUD_SHARPEST: f32 = 0.05;
+
+/// Turned, so that the tile's repetition lies along no axis of the grid.
+const CLOUD_TURN = mat3x3<f32>(vec3<f32>(0.36, 0.48, -0.8), vec3<f32>(-0.8, 0.6, 0.0), vec3<f32>(0.48, 0.64, 0.6));
+
+/// Mip level of the billows for a footprint in cells.
+fn cloud_billow_level(footprint: f32) -> f32 {
+    return log2(max(footprint * CLOUD_TILE_TEXELS / CLOUD_TILE_CELLS, 1.0));
 }
 
-/// Extinction (1/m) with turbulence of what the cells have at a place in cells, `t` metres away.
-fn cloud_detailed(extinction: f32, place: vec3<f32>, t: f32) -> f32 {
-    if ((extinction <= 0.0) | (clouds.detail <= 0.0)) {
-        return extinction;
+/// Share of cloud with turbulence, of what the cells have at a place in cells.
+fn cloud_detailed(share: f32, place: vec3<f32>, level: f32) -> f32 {
+    if ((clouds.detail <= 0.0) | (share >= 1.0)) {
+        return share;
     }
-    let share = extinction / clouds.full_per_m;
-    let deepest = CLOUD_BILLOW_DEPTH * clouds.detail;
-    if (share > deepest + CLOUD_EDGE) {
-        return extinction;
-    }
-    let footprint = t * frame_pixel_angle(vec2<f32>(0.0)) / clouds.cell_m;
-    // The threshold rises where billows are hollow; edges become steep, and middles are above any threshold.
-    let threshold = deepest * (1.0 - cloud_billows(place, footprint));
-    return extinction * smoothstep(threshold, threshold + CLOUD_EDGE, share);
+    let at = CLOUD_TURN * (place - vec3<f32>(clouds.drift_cells, 0.0)) / CLOUD_TILE_CELLS;
+    let noise = textureSampleLevel(cloud_billows, cloud_billow_sampler, at, min(level, CLOUD_LAST_LEVEL)).x;
+    let softness = max(1.0 - clouds.detail * clamp(CLOUD_LAST_LEVEL + 1.0 - level, 0.0, 1.0), CLOUD_SHARPEST);
+    return eroded_share(share, noise, softness);
 }

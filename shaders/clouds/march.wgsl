@@ -10,6 +10,9 @@ const CLOUD_STEPS: u32 = 400u;
 /// Step over the side of a cell near the camera, and over the distance far away.
 const CLOUD_STEP_CELLS: f32 = 0.5;
 const CLOUD_STEP_GROWTH: f32 = 0.006;
+/// Way towards the sun (cells) along which turbulence throws shadows, and its samples.
+const CLOUD_NEAR_CELLS: f32 = 2.0;
+const CLOUD_NEAR_TAPS: u32 = 2u;
 /// Transmittances at which a ray has seen enough.
 const CLOUD_DARK: f32 = 0.002;
 const CLOUD_DARK_DIFFUSE: f32 = 0.01;
@@ -52,12 +55,31 @@ fn cloud_phases(nu: f32) -> vec2<f32> {
     return vec2<f32>(once, phase_double_henyey_greenstein(nu, wide, clouds.forward_weight));
 }
 
+/// Optical depth towards the sun: what is near with its turbulence, the rest from the cells.
+fn cloud_sun_depth(place: vec3<f32>, level: f32) -> f32 {
+    let stride = CLOUD_NEAR_CELLS / f32(CLOUD_NEAR_TAPS);
+    let sun = cloud_shade.lamp;
+    var near = 0.0;
+    for (var tap = 0u; tap < CLOUD_NEAR_TAPS; tap++) { // loops: CLOUD_NEAR_TAPS
+        let at = place + (f32(tap) + 0.5) * stride * sun;
+        let share = cloud_share(at);
+        if (share > 0.0) {
+            near += cloud_detailed(share, at, level);
+        }
+    }
+    let beyond = place + CLOUD_NEAR_CELLS * sun;
+    let is_inside = (beyond.z > 0.0) & (beyond.z < clouds.size.z);
+    let far = select(0.0, cloud_light_at(beyond).x, is_inside);
+    return near * stride * clouds.cell_m * clouds.full_per_m + far;
+}
+
 /// Gathers light along a ray up to `limit_m`; `jitter` 0..1 moves the samples within their steps.
 fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
     let radius = atmosphere.planet_radius_m;
     let h0 = cloud_eye_m.z;
     let span = cloud_span(direction.z, limit_m);
     let phases = cloud_phases(cloud_shade_cosine(direction));
+    let texel_angle = frame_pixel_angle(vec2<f32>(0.0)) / clouds.cell_m;
     var light = CloudLight(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
     let often = f32(clouds.all_orders);
     var thin = 1.0; // transmittance for light that was scattered often
@@ -75,22 +97,26 @@ fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
             t += skip;
             continue;
         }
-        let cell = cloud_at(place);
-        let fade = 1.0 - smoothstep((1.0 - CLOUD_FADE) * clouds.reach_m, clouds.reach_m, at);
-        let depth = cloud_detailed(cell.x, place, at) * fade * step;
         t += step;
+        let share = cloud_share(place);
+        if (share <= 0.0) { continue; }
+        let level = cloud_billow_level(at * texel_angle);
+        let fade = 1.0 - smoothstep((1.0 - CLOUD_FADE) * clouds.reach_m, clouds.reach_m, at);
+        let depth = cloud_detailed(share, place, level) * clouds.full_per_m * fade * step;
         if (depth <= 0.0) { continue; }
+        let cell = cloud_light_at(place);
+        let sun_depth = cloud_sun_depth(place, level);
         let left = exp(-depth);
         let seen = light.transmittance * (1.0 - left);
-        let direct = exp(-cell.y);
+        let direct = exp(-sun_depth);
         light.sun += seen * phases.x * direct;
         light.distance_m += seen * at;
         light.transmittance *= left;
         let left_thin = exp(-clouds.transport * depth);
         let seen_thin = often * thin * (1.0 - left_thin);
-        light.sun += seen_thin * (phases.y * (exp(-clouds.transport * cell.y) - direct) + cell.z);
-        light.sky += seen_thin * cell.w;
-        light.ground += seen_thin * (1.0 - cell.w);
+        light.sun += seen_thin * (phases.y * (exp(-clouds.transport * sun_depth) - direct) + cell.y);
+        light.sky += seen_thin * cell.z;
+        light.ground += seen_thin * (1.0 - cell.z);
         thin *= left_thin;
         if (light.transmittance < CLOUD_DARK && often * thin < CLOUD_DARK_DIFFUSE) { break; }
     }

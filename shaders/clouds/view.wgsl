@@ -5,8 +5,8 @@
 // @import sky/light_lookup.wgsl
 // @import sky/moon_sky.wgsl
 
-@group(2) @binding(4) var cloud_behind: texture_2d<f32>; // the frame without clouds
-@group(2) @binding(5) var cloud_depth: texture_2d<f32>;  // reversed, 0 where the sky is
+@group(2) @binding(7) var cloud_behind: texture_2d<f32>; // the frame without clouds
+@group(2) @binding(8) var cloud_depth: texture_2d<f32>;  // reversed, 0 where the sky is
 
 @vertex
 fn cloud_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {

@@ -20,6 +20,7 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "clouds/shade.wgsl",
     "clouds/shadow.wgsl",
     "clouds/view.wgsl",
+    "common/erosion.wgsl",
     "common/grain.wgsl",
     "common/lattice.wgsl",
     "common/noise.wgsl",

@@ -151,7 +151,7 @@ fn clouds() -> (&'static str, StructLayout) {
             detail,
             block_cells,
             low_corner_m,
-            padding,
+            drift_cells,
         }),
     )
 }

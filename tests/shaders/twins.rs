@@ -54,6 +54,7 @@ macro_rules! twins {
     };
 }
 
+mod erosion;
 mod grain;
 mod lattice;
 mod noise;
@@ -64,7 +65,7 @@ mod tone;
 
 /// The tables of all files.
 const TABLES: &[&[Row]] =
-    &[grain::ROWS, lattice::ROWS, noise::ROWS, phase::ROWS, spectrum::ROWS, sphere::ROWS, tone::ROWS];
+    &[erosion::ROWS, grain::ROWS, lattice::ROWS, noise::ROWS, phase::ROWS, spectrum::ROWS, sphere::ROWS, tone::ROWS];
 
 /// Shared functions that no row compares, and rows that compare no shared function.
 fn gaps(files: &[(&str, &str)], rows: &[&Row]) -> Vec<String> {

@@ -10,6 +10,7 @@
 //! - [`ball_grid`]: the same of any list of balls.
 //! - [`sun_depth`]: the light volume, how much cloud lies between each cell and the sun.
 //! - [`mod@cloud_light`]: the light in every cell, what was scattered often included, for renderers that march.
+//! - [`turbulence`]: billows finer than a cell that keep the mean density.
 //! - [`CloudMatter`]: what all of this hands to renderers: a grid of extinction with its place, and its balls.
 //! - [`mod@floor_shadow`]: what clouds leave of the light of sun and sky on its way to the ground.
 //! - [`Metaballs`]: lists of balls for splatting and for other programs.
@@ -49,9 +50,11 @@ pub mod smoothing;
 pub mod splats;
 mod state;
 pub mod statistics;
+mod steepening;
 mod sun_depth;
 mod supply_layers;
 mod transition;
+pub mod turbulence;
 pub mod vapour;
 pub mod wind;
 
@@ -76,6 +79,8 @@ pub use simulation::CloudSimulation;
 pub use smoothing::SmoothingWindow;
 pub use state::{density_from_array, density_from_arrays, state_step};
 pub use statistics::CloudStatistics;
+pub use steepening::{deep_extinction_per_m, steepened};
 pub use sun_depth::{sun_depth, sun_depth_into};
 pub use supply_layers::{HeatSource, PaintedHumidity, Terrain, TerrainLift};
+pub use turbulence::{BILLOWS_LEVELS, BILLOWS_SIDE, Billows};
 pub use wind::{Wind, WindKnot, WindProfile};

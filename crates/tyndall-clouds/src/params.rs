@@ -112,7 +112,7 @@ params! {
     /// From cells to the matter of a cloud.
     pub struct CloudMatterParams {
         /// Extinction deep in a cloud; its inverse is how far one sees there.
-        extinction_per_m: f64 = 0.04, ["1/m", 0.0001..=1.0, Log], "Stephens 1978";
+        extinction_per_m: f64 = 0.07, ["1/m", 0.0001..=1.0, Log], "Stephens 1978";
         /// Radius of the metaballs that cells become.
         ball_radius_cells: f64 = 2.0, ["cells", 1.0..=4.0, Linear], "paper eq. (3)";
         /// Reach of the smoothing in space.

@@ -24,7 +24,7 @@ pub struct Clouds {
     pub detail: f32,
     pub block_cells: f32,
     pub low_corner_m: [f32; 2],
-    pub padding: [f32; 2],
+    pub drift_cells: [f32; 2],
 }
 
 /// Twin of `CloudShadow` in `shaders/clouds/shade.wgsl`; units and meanings there.
@@ -50,10 +50,11 @@ pub struct CloudShadow {
 }
 
 impl Clouds {
-    /// From how clouds are drawn and what they consist of.
+    /// From how clouds are drawn, what they consist of, the extinction deep in them (1/m), and how far the wind has moved their
+    /// turbulence (cells east and north).
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
-    pub fn new(drawn: &CloudsParams, matter: &CloudMatter) -> Self {
+    pub fn new(drawn: &CloudsParams, matter: &CloudMatter, full_per_m: f64, drift_cells: [f64; 2]) -> Self {
         let [west, south, floor_m] = matter.low_corner_m;
         Self {
             size: matter.extinction_per_m.size().map(|cells| cells as f32),
@@ -64,13 +65,13 @@ impl Clouds {
             floor_m: floor_m as f32,
             ceiling_m: (floor_m + matter.extent_m()[2]) as f32,
             reach_m: (1e3 * drawn.reach_km) as f32,
-            full_per_m: matter.full_per_m as f32,
+            full_per_m: full_per_m as f32,
             wraps: u32::from(matter.edges == Edges::Wrap),
             all_orders: u32::from(drawn.orders == Orders::All),
             detail: drawn.detail as f32,
             block_cells: BLOCK_CELLS as f32,
             low_corner_m: [west as f32, south as f32],
-            padding: [0.0; 2],
+            drift_cells: drift_cells.map(|cells| cells as f32),
         }
     }
 }

@@ -7,6 +7,7 @@
 //!
 //! A wrapped grid repeats to the horizon. What clouds leave of the light is kept as data ([`CloudRenderer::shadow_bindings`]).
 
+mod billows;
 mod building;
 pub mod file;
 pub mod gpu_data;
@@ -31,6 +32,7 @@ use tyndall_scene::{CloudMethod, Scene};
 use crate::sky::{SkyLightReach, SkyLightTable, SkyTables, TableBuilding};
 use crate::splats::SplatRasteriser;
 use crate::{FrameTarget, RenderError, RendererConfig, View};
+use billows::{billow_texture, drift_cells};
 use gpu_data::{Clouds, transport};
 use lamp::Lamp;
 use shadow::CloudShadow;
@@ -49,6 +51,9 @@ pub struct CloudRenderer {
     shadow: CloudShadow,
     /// Light of sky and ground at the clouds' altitudes.
     light: SkyLightTable,
+    /// Turbulence, from the first frame with clouds on.
+    billows: Option<Texture>,
+    billow_sampler: wgpu::Sampler,
     /// Copy of the frame without clouds: blending 32-bit floats is not everywhere possible.
     behind: Option<Texture>,
 }
@@ -97,8 +102,20 @@ impl CloudRenderer {
             min_filter: wgpu::FilterMode::Linear,
             ..Default::default()
         });
+        let billow_sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("turbulence of clouds"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            address_mode_w: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
         Ok(Self {
             pipeline,
+            billows: None,
+            billow_sampler,
             uniform: gpu.buffer("clouds", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
             sampler,
             volume: CloudVolume::default(),
@@ -142,12 +159,20 @@ impl CloudRenderer {
             self.volume.rest();
             return Ok(None);
         };
-        let light = LightRequest { lamp: Lamp::of(scene)?, transport: transport(&scene.clouds) };
+        let light = LightRequest {
+            lamp: Lamp::of(scene)?,
+            transport: transport(&scene.clouds),
+            detail: scene.clouds.detail,
+        };
         let Some(shown) = self.volume.update(gpu, &VolumeRequest { source, light })? else { return Ok(None) };
         let textures = &shown.textures;
-        let uniform = Clouds::new(&scene.clouds, &shown.matter);
+        let uniform = Clouds::new(&scene.clouds, &shown.matter, shown.full_per_m, drift_cells(scene));
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         self.shadow.update(gpu, Some(&textures.shadow.1));
+        let billows = match &mut self.billows {
+            Some(billows) => billows,
+            none => none.insert(billow_texture(gpu)?),
+        };
         let behind = copy_of_frame(gpu, &mut self.behind, target)?;
         let tables = surroundings.tables;
         let reach = SkyLightReach {
@@ -171,7 +196,10 @@ impl CloudRenderer {
             pipeline
         } else {
             own.extend([
+                ("cloud_matter", textures.shares.as_binding()),
                 ("cloud_cells", textures.cells.as_binding()),
+                ("cloud_billows", billows.as_binding()),
+                ("cloud_billow_sampler", wgpu::BindingResource::Sampler(&self.billow_sampler)),
                 ("cloud_sampler", wgpu::BindingResource::Sampler(&self.sampler)),
                 ("cloud_skips", textures.skips.as_binding()),
             ]);

@@ -3,7 +3,10 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use tyndall_clouds::{CloudLight, CloudMatter, FloorShadow, cloud_light, floor_shadow};
+use rayon::prelude::*;
+use tyndall_clouds::{
+    CloudLight, CloudMatter, FloorShadow, cloud_light, deep_extinction_per_m, floor_shadow, steepened,
+};
 use tyndall_core::array::NamedArrays;
 use tyndall_core::grid::Grid3;
 use tyndall_gpu::wgpu::{self, TextureFormat, TextureUsages};
@@ -22,6 +25,9 @@ use crate::sky::TableBuilding;
 /// Largest optical depth that is stored: a half float holds it, and no light is left beyond.
 const MOST_DEPTH: f32 = 6e4;
 
+/// How much steeper edges are, per unit of detail: turbulence then breaks off few puffs.
+const STEEPENING: f64 = 0.6;
+
 /// What the textures follow from.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct VolumeRequest {
@@ -38,12 +44,16 @@ pub(super) struct LightRequest {
     pub(super) lamp: Lamp,
     /// One less the mean cosine of scattering.
     pub(super) transport: f64,
+    /// How deep turbulence cuts into edges, 0 to 1.
+    pub(super) detail: f64,
 }
 
 /// Matter and light at the cells' centres, ready to be uploaded.
 #[derive(Debug)]
 pub(super) struct Volume {
     pub(super) matter: Arc<CloudMatter>,
+    full_per_m: f64,
+    shares: Vec<u16>,
     texels: Vec<[u16; 4]>,
     /// Light below them, from fine to coarse.
     shadow: Vec<FloorShadow>,
@@ -73,13 +83,22 @@ impl VolumeMaker {
     ) -> Result<Option<Volume>, RenderError> {
         let Some(matter) = self.source.matter_unless(&request.source, is_stale)? else { return Ok(None) };
         let started = Instant::now();
-        let LightRequest { lamp, transport } = request.light;
+        let LightRequest { lamp, transport, detail } = request.light;
         let to_sun = lamp.direction;
-        let light = cloud_light(&matter.extinction_per_m, matter.cell_m, to_sun, transport, matter.edges)?;
-        let texels = texels(&matter.extinction_per_m, &light);
+        let full_per_m = deep_extinction_per_m(&matter.extinction_per_m);
+        let steep = if detail > 0.0 {
+            let steepness = 1.0 + STEEPENING * detail;
+            Some(steepened(&matter.extinction_per_m, full_per_m, steepness)?)
+        } else {
+            None
+        };
+        let extinction = steep.as_ref().unwrap_or(&matter.extinction_per_m);
+        let light = cloud_light(extinction, matter.cell_m, to_sun, transport, matter.edges)?;
+        let texels = texels(extinction, &light);
+        let shares = shares(extinction, full_per_m);
         let shadow = floor_shadow(&matter.extinction_per_m, matter.cell_m, to_sun, transport, matter.edges)?.levels();
         let report = CloudReport::new(&self.source, started.elapsed()).map(Arc::new);
-        Ok(Some(Volume { texels, shadow, skips: self.skips(&matter), report, matter }))
+        Ok(Some(Volume { full_per_m, shares, texels, shadow, skips: self.skips(&matter), report, matter }))
     }
 
     fn skips(&mut self, matter: &Arc<CloudMatter>) -> Arc<Grid3<u8>> {
@@ -94,6 +113,8 @@ impl VolumeMaker {
 pub(super) struct CloudTextures {
     /// Extinction (1/m), optical depth to the sun, diffuse sunlight (1/sr) and the sky's share, at the cells' centres.
     pub(super) cells: Texture,
+    /// Extinction as a share of that deep in the clouds, at the cells' centres.
+    pub(super) shares: Texture,
     /// How far rays may jump, for each block.
     pub(super) skips: Texture,
     /// Light on the floor below the cells, and where it is.
@@ -106,6 +127,8 @@ pub(super) struct ShownClouds {
     request: VolumeRequest,
     /// The clouds in them.
     pub(super) matter: Arc<CloudMatter>,
+    /// Extinction deep in them (1/m).
+    pub(super) full_per_m: f64,
     /// Matter and light.
     pub(super) textures: CloudTextures,
     report: Option<Arc<CloudReport>>,
@@ -175,23 +198,32 @@ impl CloudVolume {
         self.revision += 1;
         // The old ones give their memory back first.
         self.shown = None;
-        let Volume { matter, texels, shadow, skips, report } = volume;
+        let Volume { matter, full_per_m, shares, texels, shadow, skips, report } = volume;
+        let size = matter.extinction_per_m.size();
+        let shares = filled(gpu, "clouds", (size, TextureFormat::R16Float, 2), bytemuck::cast_slice(&shares))?;
         let bytes = bytemuck::cast_slice::<_, u8>(&texels);
-        let cells = filled(gpu, "clouds", (matter.extinction_per_m.size(), TextureFormat::Rgba16Float, 8), bytes)?;
+        let cells = filled(gpu, "light in clouds", (size, TextureFormat::Rgba16Float, 8), bytes)?;
         let skips = filled(gpu, "clouds' gaps", (skips.size(), TextureFormat::R8Uint, 1), skips.cells())?;
         let shadow = (shadow_map(gpu, &shadow)?, gpu_data::CloudShadow::new(&matter, &request.light, &shadow));
-        self.shown = Some(ShownClouds { request, matter, textures: CloudTextures { cells, skips, shadow }, report });
+        let textures = CloudTextures { cells, shares, skips, shadow };
+        self.shown = Some(ShownClouds { request, matter, full_per_m, textures, report });
         Ok(())
     }
 }
 
+/// Matter as shares of `full_per_m`, as the bits of half floats.
+fn shares(extinction: &Grid3<f32>, full_per_m: f64) -> Vec<u16> {
+    let scale = 1.0 / full_per_m;
+    extinction.cells().par_iter().map(|value| half::f16::from_f64(f64::from(*value) * scale).to_bits()).collect()
+}
+
 /// Matter and light of the cells as the bits of half floats.
 fn texels(extinction: &Grid3<f32>, light: &CloudLight) -> Vec<[u16; 4]> {
-    let depths = light.sun_depth.cells().iter().zip(light.sun_diffuse.cells()).zip(light.sky_share.cells());
-    let texel = |(extinction, ((depth, diffuse), sky)): (&f32, ((&f32, &f32), &f32))| {
+    let cells = extinction.cells().par_iter().zip(light.sun_depth.cells());
+    let texel = |(((extinction, depth), diffuse), sky): (((&f32, &f32), &f32), &f32)| {
         [*extinction, depth.min(MOST_DEPTH), *diffuse, *sky].map(|value| half::f16::from_f32(value).to_bits())
     };
-    extinction.cells().iter().zip(depths).map(texel).collect()
+    cells.zip(light.sun_diffuse.cells()).zip(light.sky_share.cells()).map(texel).collect()
 }
 
 /// A 3-D texture that holds `bytes`.

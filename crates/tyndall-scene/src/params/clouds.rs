@@ -55,8 +55,8 @@ params! {
         backward_asymmetry: f64 = -0.5, ["1", -0.95..=0.0, Linear], "Henyey and Greenstein 1941";
         /// Share of the light in the forward lobe.
         forward_weight: f64 = 0.94, ["1", 0.0..=1.0, Linear], "two-term Henyey-Greenstein";
-        /// How deep turbulence finer than a cell cuts into the edges of clouds; 0 leaves them smooth.
-        detail: f64 = 0.6, ["1", 0.0..=1.0, Linear], "Schneider and Vos 2015";
+        /// How sharply turbulence finer than a cell cuts the edges of clouds; 0 leaves them smooth. The mean density stays.
+        detail: f64 = 0.85, ["1", 0.0..=1.0, Linear], "Schneider and Vos 2015";
         /// What the numbers of a grid in a file are: the cloud itself, or the metaballs that add up to it, of the radius in
         /// `cloud_matter`. Used when kind is file.
         file_holds: CloudFileHolds = CloudFileHolds::Density, "paper eq. (3)";
