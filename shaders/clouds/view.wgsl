@@ -8,6 +8,9 @@
 @group(2) @binding(7) var cloud_behind: texture_2d<f32>; // the frame without clouds
 @group(2) @binding(8) var cloud_depth: texture_2d<f32>;  // reversed, 0 where the sky is
 
+/// Pixels along a side of a marched one.
+override CLOUD_PIXEL: u32 = 1u; // 1..=4
+
 @vertex
 fn cloud_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
     return frame_triangle(index);
@@ -64,17 +67,31 @@ fn cloud_radiance(direction: vec3<f32>, light: CloudLight, pixel: vec2<u32>) -> 
     return light.sun * atmosphere_rec709(cloud_lamp_irradiance(direction, t, h)) + ambient + light.forward * behind;
 }
 
-@fragment
-fn cloud_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let pixel = vec2<u32>(position.xy);
-    let direction = frame_direction(frame_plane(position));
-    cloud_eye_m = vec3<f32>(frame.position_m.xy, sky_view.observer_altitude_m) + frame_eye(frame_plane(position));
-    let light = cloud_march(direction, cloud_limit(direction, pixel), cloud_jitter(pixel));
+/// Frame value of the clouds along the ray of a marched pixel, and their transmittance.
+fn cloud_seen(marched: vec2<u32>) -> vec4<f32> {
+    let plane = frame_plane(vec4<f32>(f32(CLOUD_PIXEL) * (vec2<f32>(marched) + 0.5), 0.0, 1.0));
+    let direction = frame_direction(plane);
+    let pixel = min(CLOUD_PIXEL * marched + CLOUD_PIXEL / 2u, frame.size_px - 1u);
+    cloud_eye_m = vec3<f32>(frame.position_m.xy, sky_view.observer_altitude_m) + frame_eye(plane);
+    let light = cloud_march(direction, cloud_limit(direction, pixel), cloud_jitter(marched));
     if (light.transmittance > 0.9999) {
-        discard;
+        return vec4<f32>(0.0, 0.0, 0.0, 1.0);
     }
     let air = cloud_air(direction, light.distance_m);
     let over = air.transmittance * cloud_radiance(direction, light, pixel) + air.veil * (1.0 - light.transmittance);
-    let behind = textureLoad(cloud_behind, pixel, 0).xyz * light.transmittance;
-    return vec4<f32>(min(behind + over * frame.pre_exposure, vec3<f32>(frame.largest)), 1.0);
+    return vec4<f32>(min(over * frame.pre_exposure, vec3<f32>(frame.largest)), light.transmittance);
+}
+
+@fragment
+fn cloud_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let pixel = vec2<u32>(position.xy);
+    let seen = cloud_seen(pixel);
+    let behind = textureLoad(cloud_behind, pixel, 0).xyz;
+    return vec4<f32>(min(behind * seen.w + seen.xyz, vec3<f32>(frame.largest)), 1.0);
+}
+
+/// The same at half resolution, for clouds/upsample.wgsl.
+@fragment
+fn cloud_part_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return cloud_seen(vec2<u32>(position.xy));
 }

@@ -19,6 +19,7 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "clouds/march.wgsl",
     "clouds/shade.wgsl",
     "clouds/shadow.wgsl",
+    "clouds/upsample.wgsl",
     "clouds/view.wgsl",
     "common/erosion.wgsl",
     "common/grain.wgsl",

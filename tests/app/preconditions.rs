@@ -256,6 +256,7 @@ pub(crate) const ALL: &[Precondition] = &[
             ("clouds.backward_asymmetry", Some(-0.2)),
             ("clouds.forward_weight", Some(0.6)),
             ("clouds.detail", Some(0.0)),
+            ("clouds.resolution", None),
             ("cloud_grid.cells_east", Some(48.0)),
             ("cloud_grid.cells_north", Some(48.0)),
             ("cloud_grid.cells_up", Some(24.0)),

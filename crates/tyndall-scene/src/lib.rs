@@ -34,9 +34,9 @@ pub use error::SceneError;
 pub use file::{FORMAT, MAX_BYTES, SceneFile};
 pub use hash::SceneHash;
 pub use params::{
-    CameraParams, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, CloudsParams, ExposureMode, FilmParams,
-    ImageParams, LandscapeKind, LandscapeParams, MoonParams, MoonPhase, MoonPosition, Orders, OrdersDetail, SkyKind,
-    SkyMode, SkyParams, StarsParams, SunParams, SunPosition, ToneMap,
+    CameraParams, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, CloudResolution, CloudsParams,
+    ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams, MoonParams, MoonPhase, MoonPosition, Orders,
+    OrdersDetail, SkyKind, SkyMode, SkyParams, StarsParams, SunParams, SunPosition, ToneMap,
 };
 pub use place::Place;
 pub use preset::{Preset, presets};

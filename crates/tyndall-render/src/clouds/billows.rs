@@ -3,8 +3,8 @@
 use tyndall_clouds::{BILLOWS_LEVELS, BILLOWS_SIDE, Billows};
 use tyndall_gpu::wgpu::{self, TextureFormat, TextureUsages};
 use tyndall_gpu::{Gpu, Texture, TextureDesc};
-use tyndall_scene::Scene;
 
+use super::source::CloudSourceRequest;
 use crate::RenderError;
 
 /// Seed of the lobes: where they lie does not belong to the scene.
@@ -27,12 +27,13 @@ pub(super) fn billow_texture(gpu: &Gpu) -> Result<Texture, RenderError> {
     Ok(texture)
 }
 
-/// How far the wind half-way up has moved a scene's clouds since the warm-up's end, in cells east and north.
-pub(super) fn drift_cells(scene: &Scene) -> [f64; 2] {
-    let (wind, cell_m) = (&scene.cloud_wind, scene.cloud_grid.cell_m);
+/// How far the wind half-way up has moved clouds since the warm-up's end, in cells east and north; those of files stand still.
+pub(super) fn drift_cells(source: &CloudSourceRequest) -> [f64; 2] {
+    let CloudSourceRequest::Automaton { params, time_s } = source else { return [0.0; 2] };
+    let (wind, cell_m) = (&params.wind, params.grid.cell_m);
     let cells = |speed_m_s: f64, from_deg: f64| {
         let (sine, cosine) = from_deg.to_radians().sin_cos();
-        [-sine, -cosine].map(|part| 0.5 * part * speed_m_s * scene.clouds.time_s / cell_m)
+        [-sine, -cosine].map(|part| 0.5 * part * speed_m_s * time_s / cell_m)
     };
     let floor = cells(wind.floor_speed_m_s, wind.floor_from_deg);
     let ceiling = cells(wind.ceiling_speed_m_s, wind.ceiling_from_deg);

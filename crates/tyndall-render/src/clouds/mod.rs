@@ -11,6 +11,7 @@ mod billows;
 mod building;
 pub mod file;
 pub mod gpu_data;
+mod half;
 mod lamp;
 pub mod reference;
 mod report;
@@ -27,13 +28,14 @@ use tyndall_clouds::floor_shadow::optical_depth;
 use tyndall_core::array::NamedArrays;
 use tyndall_gpu::wgpu::{self, BufferUsages, TextureUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture, TextureDesc};
-use tyndall_scene::{CloudMethod, Scene};
+use tyndall_scene::{CloudMethod, CloudResolution, Scene};
 
 use crate::sky::{SkyLightReach, SkyLightTable, SkyTables, TableBuilding};
 use crate::splats::SplatRasteriser;
 use crate::{FrameTarget, RenderError, RendererConfig, View};
 use billows::{billow_texture, drift_cells};
 use gpu_data::{Clouds, transport};
+use half::HalfClouds;
 use lamp::Lamp;
 use shadow::CloudShadow;
 use source::CloudSourceRequest;
@@ -44,6 +46,7 @@ use volume::{CloudVolume, LightRequest, VolumeRequest};
 #[derive(Debug)]
 pub struct CloudRenderer {
     pipeline: RenderPipeline,
+    half: HalfClouds,
     uniform: Buffer,
     sampler: wgpu::Sampler,
     volume: CloudVolume,
@@ -63,6 +66,8 @@ pub struct CloudRenderer {
 pub struct CloudDrawData {
     method: CloudMethod,
     bindings: [wgpu::BindGroup; 4],
+    /// What lays clouds of half resolution over the frame.
+    over: Option<wgpu::BindGroup>,
 }
 
 /// What clouds are drawn with.
@@ -80,9 +85,10 @@ impl CloudRenderer {
     /// # Errors
     /// When the shader is wrong or memory does not suffice.
     pub fn new(gpu: &Gpu, config: RendererConfig) -> Result<Self, RenderError> {
+        let shader = Shader::load(gpu, "clouds/view.wgsl")?;
         let pipeline = RenderPipeline::new(
             gpu,
-            &Shader::load(gpu, "clouds/view.wgsl")?,
+            &shader,
             &RenderPipelineDesc {
                 label: "clouds",
                 vertex: "cloud_vertex",
@@ -114,6 +120,7 @@ impl CloudRenderer {
         });
         Ok(Self {
             pipeline,
+            half: HalfClouds::new(gpu, &shader, config)?,
             billows: None,
             billow_sampler,
             uniform: gpu.buffer("clouds", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
@@ -159,14 +166,11 @@ impl CloudRenderer {
             self.volume.rest();
             return Ok(None);
         };
-        let light = LightRequest {
-            lamp: Lamp::of(scene)?,
-            transport: transport(&scene.clouds),
-            detail: scene.clouds.detail,
-        };
+        let light =
+            LightRequest { lamp: Lamp::of(scene)?, transport: transport(&scene.clouds), detail: scene.clouds.detail };
         let Some(shown) = self.volume.update(gpu, &VolumeRequest { source, light })? else { return Ok(None) };
         let textures = &shown.textures;
-        let uniform = Clouds::new(&scene.clouds, &shown.matter, shown.full_per_m, drift_cells(scene));
+        let uniform = Clouds::new(&scene.clouds, &shown.matter, shown.full_per_m, drift_cells(&shown.request.source));
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         self.shadow.update(gpu, Some(&textures.shadow.1));
         let billows = match &mut self.billows {
@@ -190,6 +194,8 @@ impl CloudRenderer {
         let mut own = vec![("clouds", self.uniform.as_entire_binding()), ("cloud_behind", behind.as_binding())];
         own.push(("cloud_depth", target.depth.as_binding()));
         let method = scene.clouds.method;
+        let halves = method == CloudMethod::Volume && scene.clouds.resolution == CloudResolution::Half;
+        let over = halves.then(|| self.half.bind(gpu, surroundings.frame, behind, target)).transpose()?;
         let pipeline = if method == CloudMethod::Splats {
             let (pipeline, [once, often]) = self.splats.prepare(gpu, (scene, light.lamp), &shown.matter, target)?;
             own.extend([("splat_once", once.as_binding()), ("splat_often", often.as_binding())]);
@@ -203,7 +209,7 @@ impl CloudRenderer {
                 ("cloud_sampler", wgpu::BindingResource::Sampler(&self.sampler)),
                 ("cloud_skips", textures.skips.as_binding()),
             ]);
-            &self.pipeline
+            if halves { self.half.march() } else { &self.pipeline }
         };
         let frame = [("frame", surroundings.frame.as_entire_binding())];
         let bindings = [
@@ -212,7 +218,7 @@ impl CloudRenderer {
             pipeline.bind(gpu, 2, &own)?,
             pipeline.bind(gpu, 3, &shade)?,
         ];
-        Ok(Some(CloudDrawData { method, bindings }))
+        Ok(Some(CloudDrawData { method, bindings, over }))
     }
 
     /// What `clouds/shadow.wgsl` needs, by the names of its variables: what the clouds of the last scene that was prepared
@@ -269,6 +275,10 @@ impl CloudRenderer {
     ) {
         let Some(behind) = &self.behind else { return };
         encoder.copy_texture_to_texture(target.frame.as_image_copy(), behind.as_image_copy(), behind.size());
+        if let Some(over) = &data.over {
+            self.half.record(encoder, timer, (&data.bindings, over), target);
+            return;
+        }
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("clouds"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {

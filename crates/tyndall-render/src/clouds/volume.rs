@@ -124,7 +124,8 @@ pub(super) struct CloudTextures {
 /// The textures that are shown.
 #[derive(Debug)]
 pub(super) struct ShownClouds {
-    request: VolumeRequest,
+    /// What they were asked for.
+    pub(super) request: VolumeRequest,
     /// The clouds in them.
     pub(super) matter: Arc<CloudMatter>,
     /// Extinction deep in them (1/m).

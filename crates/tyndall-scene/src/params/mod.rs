@@ -11,7 +11,7 @@ mod stars;
 mod sun;
 
 pub use camera::{CameraParams, CameraProjection};
-pub use clouds::{CloudFileHolds, CloudKind, CloudMethod, CloudsParams};
+pub use clouds::{CloudFileHolds, CloudKind, CloudMethod, CloudResolution, CloudsParams};
 pub use film::{ExposureMode, FilmParams, ToneMap};
 pub use image::ImageParams;
 pub use landscape::{LandscapeKind, LandscapeParams};
