@@ -44,6 +44,7 @@ fn small(changes: &[(&str, &str)]) -> Scene {
         ("clouds.kind", "file"),
         ("clouds.file", SMALL),
         ("clouds.detail", "0"),
+        ("cloud_matter.extinction_per_m", "0.04"),
         ("cloud_grid.cell_m", "50"),
         ("cloud_grid.floor_m", "0"),
         ("cloud_grid.edges", "open"),
