@@ -50,8 +50,9 @@ fn cloud_span(mu: f32, limit_m: f32) -> vec2<f32> {
 /// Radiance (1/sr) over transmitted sunlight of light scattered once, and that of what narrow forward scattering adds.
 fn cloud_phases(nu: f32) -> vec2<f32> {
     let once = phase_double_henyey_greenstein(nu, clouds.asymmetry, clouds.forward_weight);
-    // Scattered forward a few times: the lobe is as wide as those of all these scatterings together.
-    let wide = clouds.asymmetry * clouds.asymmetry * clouds.asymmetry;
+    // Scattered forward a few times: the lobe is as wide as those of all these scatterings together, six in the mean.
+    let square = clouds.asymmetry * clouds.asymmetry;
+    let wide = square * square * square;
     return vec2<f32>(once, phase_double_henyey_greenstein(nu, wide, clouds.forward_weight));
 }
 

@@ -1,11 +1,10 @@
 //! Light inside a cloud, cell by cell, for renderers that march: what is left of the sunlight, and what was scattered often.
 //!
 //! Light that was scattered more than once forgets its direction. It obeys the diffusion equation in a medium whose extinction
-//! is the true one times `transport`, one less the mean cosine of scattering (van de Hulst's similarity). Each cell is given
-//! the exact solution of that equation in a slab, by Eddington's approximation without absorption: a slab across the sun's
-//! rays, as thick as the cloud on the ray through the cell, for sunlight; a level slab, as thick as the cloud above and below
-//! the cell, for light of sky and ground. A slab sends back what it does not let through, so no energy is lost; light that
-//! leaves through the sides of a lone cloud is counted as if it stayed.
+//! is the true one times `transport`, one less the mean cosine of scattering (van de Hulst's similarity). For sunlight it is
+//! solved on the cells, so that it leaves a lone cloud on all sides. For light of sky and ground each cell is given the exact solution in a level slab as thick as
+//! the cloud above and below it, by Eddington's approximation without absorption: what it does not let through it sends back.
+//! [`sun_diffusion`] is that slab's for sunlight: of decks, and of single balls.
 //!
 //! Half-space, overhead sun, isotropic scattering: 4.0 / (4 pi) upwards, 5 % below Chandrasekhar's H function.
 
@@ -14,6 +13,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use tyndall_core::grid::Grid3;
 
+use crate::diffusion::diffuse;
 use crate::edges::Edges;
 use crate::error::{CloudError, in_range};
 use crate::narrow::narrow;
@@ -48,18 +48,53 @@ pub fn cloud_light(
     let scale = narrow(cell_m);
     let mut sun = depth(to_sun)?;
     sun.cells_mut().iter_mut().for_each(|cell| *cell *= scale);
-    let behind = depth(to_sun.map(|part| -part))?;
     let scaled = transport * cell_m;
-    let near = sun.cells().par_iter().zip(behind.cells());
-    let sun_diffuse =
-        near.map(|(near, behind)| narrow(sun_diffusion(transport * f64::from(*near), scaled * f64::from(*behind))));
-    let sun_diffuse = sun_diffuse.collect();
+    let sun_diffuse = diffuse_sunlight(extinction, &sun, (scale, narrow(transport)), edges);
     let (above, below) = (depth([0.0, 0.0, 1.0])?, depth([0.0, 0.0, -1.0])?);
     let level = above.cells().par_iter().zip(below.cells());
     let sky_share =
         level.map(|(above, below)| narrow(sky_share(scaled * f64::from(*above), scaled * f64::from(*below)))).collect();
     let grid = |cells| Grid3::from_cells(extinction.size(), cells).unwrap_or_else(|| extinction.clone());
-    Ok(CloudLight { sun_diffuse: grid(sun_diffuse), sky_share: grid(sky_share), sun_depth: sun })
+    Ok(CloudLight { sun_diffuse, sky_share: grid(sky_share), sun_depth: sun })
+}
+
+/// The part [`CloudLight::sun_diffuse`] of [`cloud_light`] alone.
+///
+/// # Errors
+/// As [`cloud_light`].
+pub fn sunlight_scattered_often(
+    extinction: &Grid3<f32>,
+    cell_m: f64,
+    to_sun: [f64; 3],
+    transport: f64,
+    edges: Edges,
+) -> Result<Grid3<f32>, CloudError> {
+    in_range("side of a cell", cell_m, (1e-9, 1e9), " m")?;
+    in_range("transport", transport, (1e-6, 2.0), "")?;
+    let mut sun = depth_with_neighbours(extinction, to_sun, edges)?;
+    let scale = narrow(cell_m);
+    sun.cells_mut().iter_mut().for_each(|cell| *cell *= scale);
+    Ok(diffuse_sunlight(extinction, &sun, (scale, narrow(transport)), edges))
+}
+
+/// Mean radiance of sunlight that was scattered so often that it forgot its direction: what the beam loses in a medium
+/// thinner by `transport` spreads from there.
+fn diffuse_sunlight(
+    extinction: &Grid3<f32>,
+    sun_depth: &Grid3<f32>,
+    (cell_m, transport): (f32, f32),
+    edges: Edges,
+) -> Grid3<f32> {
+    let mut thickness = extinction.clone();
+    thickness.cells_mut().par_iter_mut().for_each(|cell| *cell *= transport * cell_m);
+    let mut source = sun_depth.clone();
+    source.cells_mut().par_iter_mut().zip(thickness.cells()).for_each(|(cell, thickness)| {
+        // The mean of the beam over the cell, where it falls off from one end to the other.
+        let half = 0.5 * thickness;
+        let mean = if half > 1e-3 { half.sinh() / half } else { 1.0 };
+        *cell = thickness * (-transport * *cell).exp() * mean.min(4.0);
+    });
+    diffuse(&thickness, &source, edges)
 }
 
 /// Mean radiance (1/sr) of sunlight scattered more than once, or once without a trace of its direction, in a slab across the

@@ -71,6 +71,15 @@ impl BallField {
         Ok(field)
     }
 
+    /// Replaces the light that balls scatter often by what is known better: the mean radiance (1/sr) of such sunlight at a
+    /// place (m), for a sun of irradiance 1.
+    #[must_use]
+    pub fn with_diffuse(mut self, diffuse: impl Fn([f64; 3]) -> f32) -> Self {
+        let balls = self.levels.iter_mut().flat_map(|level| level.blocks.iter_mut().flatten());
+        balls.for_each(|lit| lit.diffuse = diffuse(lit.ball.centre_m.map(f64::from)));
+        self
+    }
+
     /// Number of balls of the finest level.
     #[must_use]
     pub fn len(&self) -> usize {

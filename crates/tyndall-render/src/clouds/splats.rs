@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use tyndall_clouds::splats::{BallField, SplatLighting, SplatOrders, SplatProjection, SplatView};
+use tyndall_clouds::sunlight_scattered_often;
 use tyndall_clouds::{CloudMatter, Edges};
 use tyndall_gpu::wgpu;
 use tyndall_gpu::{Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture};
@@ -94,7 +95,17 @@ fn field(matter: &CloudMatter, lighting: SplatLighting) -> Result<BallField, Ren
     let [west, south, _] = matter.low_corner_m;
     let [east_m, north_m, _] = matter.extent_m();
     let period_m = (matter.edges == Edges::Wrap).then_some([east_m, north_m]);
-    Ok(BallField::new(&matter.balls(), ([west, south], period_m, matter.cell_m), lighting)?)
+    let field = BallField::new(&matter.balls(), ([west, south], period_m, matter.cell_m), lighting)?;
+    let Some(transport) = lighting.transport else { return Ok(field) };
+    let CloudMatter { extinction_per_m, cell_m, edges, low_corner_m, .. } = matter;
+    let often = sunlight_scattered_often(extinction_per_m, *cell_m, lighting.to_sun, transport, *edges)?;
+    Ok(field.with_diffuse(|place_m| often[cell_of(place_m, *low_corner_m, *cell_m, often.size())]))
+}
+
+/// The cell of a place, or the nearest one of the grid.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the grid")]
+fn cell_of(place_m: [f64; 3], low_m: [f64; 3], cell_m: f64, size: [usize; 3]) -> [usize; 3] {
+    [0, 1, 2].map(|axis| ((place_m[axis] - low_m[axis]) / cell_m).clamp(0.0, size[axis] as f64 - 1.0) as usize)
 }
 
 /// The camera of a view of a grounded scene.
