@@ -51,7 +51,7 @@ params! {
     pub struct CloudsParams {
         /// What the clouds are made by.
         kind: CloudKind = CloudKind::None, "paper section 3";
-        /// How clouds are drawn: marched, or as the paper's metaballs on billboards, which are faster without a GPU and smoother.
+        /// How clouds are drawn: marched, or as the paper's metaballs on billboards, which are smoother.
         method: CloudMethod = CloudMethod::Volume, "paper section 3.3";
         /// Time since the end of the warm-up: clouds drift, form and vanish.
         time_s: f64 = 0.0, ["s", 0.0..=100000.0, Linear], "paper section 3.2";
