@@ -51,30 +51,7 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
                 blue,
             }),
         ),
-        (
-            "Frame",
-            rust_layout!(Frame {
-                right,
-                tan_half_width,
-                up,
-                tan_half_height,
-                forward,
-                near_m,
-                position_m,
-                pre_exposure,
-                size_px,
-                tone_map,
-                dither,
-                auto_exposure,
-                manual_gain,
-                compensation,
-                levels,
-                contrast,
-                saturation,
-                projection,
-                largest,
-            }),
-        ),
+        frame(),
         ("Aerial", rust_layout!(Aerial { columns, rows, far_m, unit })),
         clouds(),
         cloud_shadow(),
@@ -107,6 +84,34 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
         ),
         ("SplatCamera", rust_layout!(SplatCamera { half, perspective, transport, near_m, padding })),
     ]
+}
+
+/// Twin of `Frame`.
+fn frame() -> (&'static str, StructLayout) {
+    (
+        "Frame",
+        rust_layout!(Frame {
+            right,
+            tan_half_width,
+            up,
+            tan_half_height,
+            forward,
+            near_m,
+            position_m,
+            pre_exposure,
+            size_px,
+            tone_map,
+            dither,
+            auto_exposure,
+            manual_gain,
+            compensation,
+            levels,
+            contrast,
+            saturation,
+            projection,
+            largest,
+        }),
+    )
 }
 
 /// Twin of `SkyView`.

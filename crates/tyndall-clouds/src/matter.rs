@@ -27,6 +27,8 @@ pub struct CloudMatter {
     /// Extinction deep in the cloud (1/m), against which its edges are thin.
     pub full_per_m: f64,
     balls: BallSource,
+    /// Time since the end of the warm-up that it shows (s); 0 of what stands still.
+    pub time_s: f64,
 }
 
 /// What the balls are made of when they are asked for: lists are longer than grids.
@@ -48,9 +50,11 @@ impl CloudMatter {
     pub fn of_simulation(simulation: &mut CloudSimulation, fraction: f32) -> Result<Self, CloudError> {
         let extinction_per_m = simulation.extinction_per_m(fraction)?;
         let peaks_per_m = simulation.peaks_per_m(fraction)?;
+        let time_s = simulation.time_s() - f64::from(1.0 - fraction) * simulation.params().grid.step_s;
         let params = simulation.params();
         let (grid, cell_m) = (&params.grid, params.grid.cell_m);
         Ok(Self {
+            time_s,
             low_corner_m: centred(extinction_per_m.size(), cell_m, grid.floor_m),
             extinction_per_m,
             cell_m,
@@ -70,7 +74,8 @@ impl CloudMatter {
         radius_m: f64,
     ) -> Self {
         let full_per_m = most(&extinction_per_m);
-        Self { extinction_per_m, cell_m, low_corner_m, edges, full_per_m, balls: BallSource::Cells { radius_m } }
+        let balls = BallSource::Cells { radius_m };
+        Self { extinction_per_m, cell_m, low_corner_m, edges, full_per_m, time_s: 0.0, balls }
     }
 
     /// Of balls, sampled on a grid.
@@ -78,6 +83,7 @@ impl CloudMatter {
     pub fn of_balls(list: Metaballs, grid: &BallGrid) -> Self {
         let extinction_per_m = grid.extinction_per_m(&list);
         Self {
+            time_s: 0.0,
             full_per_m: most(&extinction_per_m),
             extinction_per_m,
             cell_m: grid.cell_m,

@@ -1,8 +1,33 @@
 //! Paths of files that a scene names.
 
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
 use crate::Scene;
+
+/// The folder that relative paths of a scene start from. Where a scene lies is no part of what it is: all folders are equal.
+#[derive(Clone, Debug, Default)]
+pub struct SceneFolder(PathBuf);
+
+impl PartialEq for SceneFolder {
+    fn eq(&self, _other: &Self) -> bool {
+        true
+    }
+}
+
+impl Deref for SceneFolder {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl From<PathBuf> for SceneFolder {
+    fn from(folder: PathBuf) -> Self {
+        Self(folder)
+    }
+}
 
 impl Scene {
     /// Where the file of the clouds is; relative paths start from [`Scene::folder`].
@@ -23,7 +48,7 @@ impl Scene {
             let within = whole.strip_prefix(absolute(folder)).map(Path::to_owned);
             self.clouds.file = within.unwrap_or(whole).display().to_string();
         }
-        folder.clone_into(&mut self.folder);
+        self.folder = folder.to_owned().into();
     }
 }
 

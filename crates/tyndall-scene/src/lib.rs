@@ -32,6 +32,7 @@ pub mod sun;
 pub use docs::{markdown_table, schema};
 pub use error::SceneError;
 pub use file::{FORMAT, MAX_BYTES, SceneFile};
+pub use files::SceneFolder;
 pub use hash::SceneHash;
 pub use params::{
     CameraParams, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, CloudResolution, CloudsParams,

@@ -1,12 +1,11 @@
 //! The scene: all groups of parameters, reached by path.
 
-use std::path::PathBuf;
-
 use tyndall_core::units::M_PER_KM;
 use tyndall_core::{ParamError, ParamInfo, ParamSet};
 use tyndall_scattering::aerosol::clearest_visibility_km;
 use tyndall_scattering::refraction::RefractiveAir;
 
+use crate::files::SceneFolder;
 use crate::landscape::Landscape;
 use crate::{
     AerosolInput, Atmosphere, AtmosphereParams, CameraParams, CameraProjection, CloudGridParams, CloudKind,
@@ -27,7 +26,7 @@ pub struct Scene {
     /// What the scene shows.
     pub description: String,
     /// Folder that relative paths in the scene start from: that of its file, or where the program runs when empty.
-    pub folder: PathBuf,
+    pub folder: SceneFolder,
     /// Where the camera stands and looks.
     pub camera: CameraParams,
     /// Where the sun stands and what its disc looks like.

@@ -38,7 +38,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("noon.toml");
         std::fs::write(&path, presets::find("noon").unwrap().text).unwrap();
-        assert_eq!(load(&path).unwrap(), preset, "the same scene both ways");
+        let loaded = load(&path).unwrap();
+        assert_eq!(&*loaded.folder, folder.path(), "what a scene names lies beside it");
+        assert_eq!(loaded, preset, "the same scene both ways");
     }
 
     #[test]

@@ -28,8 +28,8 @@ pub(super) fn billow_texture(gpu: &Gpu) -> Result<Texture, RenderError> {
 }
 
 /// How far the wind half-way up has moved clouds since the warm-up's end, in cells east and north; those of files stand still.
-pub(super) fn drift_cells(source: &CloudSourceRequest) -> [f64; 2] {
-    let CloudSourceRequest::Automaton { params, time_s } = source else { return [0.0; 2] };
+pub(super) fn drift_cells(source: &CloudSourceRequest, time_s: f64) -> [f64; 2] {
+    let CloudSourceRequest::Automaton { params, .. } = source else { return [0.0; 2] };
     let (wind, cell_m) = (&params.wind, params.grid.cell_m);
     let cells = |speed_m_s: f64, from_deg: f64| {
         let (sine, cosine) = from_deg.to_radians().sin_cos();

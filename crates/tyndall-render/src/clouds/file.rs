@@ -168,7 +168,7 @@ mod tests {
 
     /// A scene whose clouds come from a file in a folder.
     fn scene(folder: &Path, file: &str, changes: &[(&str, &str)]) -> Scene {
-        let mut scene = Scene { folder: folder.to_owned(), ..Scene::default() };
+        let mut scene = Scene { folder: folder.to_owned().into(), ..Scene::default() };
         let fixed =
             [("clouds.kind", "file"), ("clouds.file", file), ("cloud_grid.cell_m", "20"), ("cloud_grid.edges", "open")];
         for (path, value) in fixed.iter().chain(changes) {
@@ -218,7 +218,7 @@ mod tests {
             let first = Metaball { centre_m: [12.5, 22.5, 1012.5], ..list.balls[0] };
             assert_eq!(list.balls[0], first, "place in its cell");
             let full: f64 = list.balls[0].mass_m2() / 20.0_f64.powi(3);
-            assert!((full - 0.04).abs() < 1e-6, "a full ball has the mass of a full cell: {full} 1/m");
+            assert!((full - 0.07).abs() < 1e-6, "a full ball has the mass of a full cell: {full} 1/m");
             let cell = [1, 1, 1];
             let point = [0, 1, 2].map(|axis| matter.low_corner_m[axis] + (cell[axis] as f64 + 0.5) * matter.cell_m);
             let gap = f64::from(matter.extinction_per_m[cell]) - list.extinction_per_m(point);
@@ -260,7 +260,7 @@ mod tests {
             ("flat.npy", "its shape is [6, 4]; three dimensions are needed"),
             ("nan.npy", "NaN is no density; 0 and more is allowed"),
             ("negative.npy", "-0.5 is no density; 0 and more is allowed"),
-            ("dense.npy", "its extinction reaches 400000"),
+            ("dense.npy", "its extinction reaches 700000"),
             ("whole.npy", "whole numbers of 32 or 64 bits are no density"),
             ("text.npz", "this is no NPZ file"),
             ("empty.csv", "the list of metaballs is empty"),

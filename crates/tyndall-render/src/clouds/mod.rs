@@ -170,7 +170,8 @@ impl CloudRenderer {
             LightRequest { lamp: Lamp::of(scene)?, transport: transport(&scene.clouds), detail: scene.clouds.detail };
         let Some(shown) = self.volume.update(gpu, &VolumeRequest { source, light })? else { return Ok(None) };
         let textures = &shown.textures;
-        let uniform = Clouds::new(&scene.clouds, &shown.matter, shown.full_per_m, drift_cells(&shown.request.source));
+        let drift = drift_cells(&shown.request.source, shown.matter.time_s);
+        let uniform = Clouds::new(&scene.clouds, &shown.matter, shown.full_per_m, drift);
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         self.shadow.update(gpu, Some(&textures.shadow.1));
         let billows = match &mut self.billows {

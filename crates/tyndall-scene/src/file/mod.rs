@@ -68,7 +68,7 @@ impl SceneFile {
         match String::from_utf8(bytes) {
             Ok(text) => {
                 let mut file = Self::parse(&name, &text)?;
-                file.scene.folder = folder_of(path);
+                file.scene.folder = folder_of(path).into();
                 Ok(file)
             }
             Err(error) => {
