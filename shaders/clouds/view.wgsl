@@ -67,13 +67,8 @@ fn cloud_radiance(direction: vec3<f32>, light: CloudLight, pixel: vec2<u32>) -> 
     return light.sun * atmosphere_rec709(cloud_lamp_irradiance(direction, t, h)) + ambient + light.forward * behind;
 }
 
-/// Frame value of the clouds along the ray of a marched pixel, and their transmittance.
-fn cloud_seen(marched: vec2<u32>) -> vec4<f32> {
-    let plane = frame_plane(vec4<f32>(f32(CLOUD_PIXEL) * (vec2<f32>(marched) + 0.5), 0.0, 1.0));
-    let direction = frame_direction(plane);
-    let pixel = min(CLOUD_PIXEL * marched + CLOUD_PIXEL / 2u, frame.size_px - 1u);
-    cloud_eye_m = vec3<f32>(frame.position_m.xy, sky_view.observer_altitude_m) + frame_eye(plane);
-    let light = cloud_march(direction, cloud_limit(direction, pixel), cloud_jitter(marched));
+/// Frame value of a ray's light behind the air before it, and the transmittance of the clouds; none where they hardly show.
+fn cloud_shown(light: CloudLight, direction: vec3<f32>, pixel: vec2<u32>) -> vec4<f32> {
     if (light.transmittance > 0.9999) {
         return vec4<f32>(0.0, 0.0, 0.0, 1.0);
     }
@@ -82,12 +77,26 @@ fn cloud_seen(marched: vec2<u32>) -> vec4<f32> {
     return vec4<f32>(min(over * frame.pre_exposure, vec3<f32>(frame.largest)), light.transmittance);
 }
 
+/// The frame with what clouds show at a pixel laid over it.
+fn cloud_laid_over(shown: vec4<f32>, pixel: vec2<u32>) -> vec4<f32> {
+    let behind = textureLoad(cloud_behind, pixel, 0).xyz;
+    return vec4<f32>(min(behind * shown.w + shown.xyz, vec3<f32>(frame.largest)), 1.0);
+}
+
+/// [`cloud_shown`] along the ray of a marched pixel.
+fn cloud_seen(marched: vec2<u32>) -> vec4<f32> {
+    let plane = frame_plane(vec4<f32>(f32(CLOUD_PIXEL) * (vec2<f32>(marched) + 0.5), 0.0, 1.0));
+    let direction = frame_direction(plane);
+    let pixel = min(CLOUD_PIXEL * marched + CLOUD_PIXEL / 2u, frame.size_px - 1u);
+    cloud_eye_m = vec3<f32>(frame.position_m.xy, sky_view.observer_altitude_m) + frame_eye(plane);
+    let light = cloud_march(direction, cloud_limit(direction, pixel), cloud_jitter(marched));
+    return cloud_shown(light, direction, pixel);
+}
+
 @fragment
 fn cloud_fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let pixel = vec2<u32>(position.xy);
-    let seen = cloud_seen(pixel);
-    let behind = textureLoad(cloud_behind, pixel, 0).xyz;
-    return vec4<f32>(min(behind * seen.w + seen.xyz, vec3<f32>(frame.largest)), 1.0);
+    return cloud_laid_over(cloud_seen(pixel), pixel);
 }
 
 /// The same at half resolution, for clouds/upsample.wgsl.

@@ -20,12 +20,5 @@ fn splat_over(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> 
     let pixel = vec2<u32>(position.xy);
     let direction = frame_direction(frame_plane(position));
     cloud_eye_m = vec3<f32>(frame.position_m.xy, sky_view.observer_altitude_m) + frame_eye(frame_plane(position));
-    let light = splat_light(direction, pixel);
-    if (light.transmittance > 0.9999) {
-        discard;
-    }
-    let air = cloud_air(direction, light.distance_m);
-    let over = air.transmittance * cloud_radiance(direction, light, pixel) + air.veil * (1.0 - light.transmittance);
-    let behind = textureLoad(cloud_behind, pixel, 0).xyz * light.transmittance;
-    return vec4<f32>(min(behind + over * frame.pre_exposure, vec3<f32>(frame.largest)), 1.0);
+    return cloud_laid_over(cloud_shown(splat_light(direction, pixel), direction, pixel), pixel);
 }

@@ -42,20 +42,15 @@ pub fn cloud_light(
     transport: f64,
     edges: Edges,
 ) -> Result<CloudLight, CloudError> {
-    in_range("side of a cell", cell_m, (1e-9, 1e9), " m")?;
-    in_range("transport", transport, (1e-6, 2.0), "")?;
+    let (sun_depth, sun_diffuse) = sunlight(extinction, cell_m, to_sun, transport, edges)?;
     let depth = |direction| depth_with_neighbours(extinction, direction, edges);
-    let scale = narrow(cell_m);
-    let mut sun = depth(to_sun)?;
-    sun.cells_mut().iter_mut().for_each(|cell| *cell *= scale);
     let scaled = transport * cell_m;
-    let sun_diffuse = diffuse_sunlight(extinction, &sun, (scale, narrow(transport)), edges);
     let (above, below) = (depth([0.0, 0.0, 1.0])?, depth([0.0, 0.0, -1.0])?);
     let level = above.cells().par_iter().zip(below.cells());
     let sky_share =
         level.map(|(above, below)| narrow(sky_share(scaled * f64::from(*above), scaled * f64::from(*below)))).collect();
     let grid = |cells| Grid3::from_cells(extinction.size(), cells).unwrap_or_else(|| extinction.clone());
-    Ok(CloudLight { sun_diffuse, sky_share: grid(sky_share), sun_depth: sun })
+    Ok(CloudLight { sun_depth, sun_diffuse, sky_share: grid(sky_share) })
 }
 
 /// The part [`CloudLight::sun_diffuse`] of [`cloud_light`] alone.
@@ -69,12 +64,24 @@ pub fn sunlight_scattered_often(
     transport: f64,
     edges: Edges,
 ) -> Result<Grid3<f32>, CloudError> {
+    Ok(sunlight(extinction, cell_m, to_sun, transport, edges)?.1)
+}
+
+/// Optical depth towards the sun and sunlight that was scattered often, as [`CloudLight`] has them.
+fn sunlight(
+    extinction: &Grid3<f32>,
+    cell_m: f64,
+    to_sun: [f64; 3],
+    transport: f64,
+    edges: Edges,
+) -> Result<(Grid3<f32>, Grid3<f32>), CloudError> {
     in_range("side of a cell", cell_m, (1e-9, 1e9), " m")?;
     in_range("transport", transport, (1e-6, 2.0), "")?;
-    let mut sun = depth_with_neighbours(extinction, to_sun, edges)?;
+    let mut depth = depth_with_neighbours(extinction, to_sun, edges)?;
     let scale = narrow(cell_m);
-    sun.cells_mut().iter_mut().for_each(|cell| *cell *= scale);
-    Ok(diffuse_sunlight(extinction, &sun, (scale, narrow(transport)), edges))
+    depth.cells_mut().iter_mut().for_each(|cell| *cell *= scale);
+    let diffuse = diffuse_sunlight(extinction, &depth, (scale, narrow(transport)), edges);
+    Ok((depth, diffuse))
 }
 
 /// Mean radiance of sunlight that was scattered so often that it forgot its direction: what the beam loses in a medium

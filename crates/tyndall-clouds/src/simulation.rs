@@ -8,7 +8,6 @@ use crate::density::CloudDensity;
 use crate::ellipsoid_list::parse_ellipsoids;
 use crate::ellipsoids::{Ellipsoid, EllipsoidSupply, HumidEllipsoids};
 use crate::error::{CloudError, in_range};
-use crate::metaballs::{Metaball, Metaballs};
 use crate::narrow::narrow;
 use crate::painted_map::PaintedMap;
 use crate::painted_vapour::{PaintedRange, PaintedVapour};
@@ -162,28 +161,7 @@ impl CloudSimulation {
         Ok(peaks)
     }
 
-    /// One metaball for each cell with cloud, in metres from the grid's low corner, height above sea level.
-    ///
-    /// # Errors
-    /// When the fraction is outside 0 to 1.
-    pub fn metaballs(&mut self, fraction: f32) -> Result<Metaballs, CloudError> {
-        let (extinction, cell_m) = (self.ball_extinction_per_m(), self.params.grid.cell_m);
-        let (radius_m, floor_m) = (self.params.matter.ball_radius_cells * cell_m, self.params.grid.floor_m);
-        let share = self.share(fraction)?;
-        let cells = crate::grid_size::cells(share.size()).zip(share.cells()).filter(|(_, share)| **share > 0.0);
-        let ball = |([x, y, z], share): ([usize; 3], &f32)| Metaball {
-            centre_m: [x, y, z].map(|place| (place as f64 + 0.5) * cell_m).map(narrow),
-            radius_m: narrow(radius_m),
-            extinction_per_m: narrow(extinction) * share,
-        };
-        let mut balls: Vec<_> = cells.map(ball).collect();
-        for ball in &mut balls {
-            ball.centre_m[2] += narrow(floor_m);
-        }
-        Ok(Metaballs { balls })
-    }
-
-    /// Cells with cloud at the moment that was asked for last: as many as [`CloudSimulation::metaballs`] has balls.
+    /// Cells with cloud at the moment that was asked for last: as many as [`crate::CloudMatter`] has balls.
     #[must_use]
     pub fn ball_count(&self) -> usize {
         self.share.cells().iter().filter(|share| **share > 0.0).count()
@@ -299,7 +277,7 @@ mod tests {
         let cell_m3 = params.grid.cell_m.powi(3);
         let grid: f64 =
             simulation.extinction_per_m(1.0).unwrap().cells().iter().map(|v| f64::from(*v)).sum::<f64>() * cell_m3;
-        let balls = simulation.metaballs(1.0).unwrap();
+        let balls = crate::CloudMatter::of_simulation(&mut simulation, 1.0).unwrap().balls();
         assert_eq!(balls.balls.len(), simulation.ball_count(), "balls are counted without a list");
         let list = balls.mass_m2();
         // In a wrapped grid nothing is lost but what spills over floor and ceiling.
