@@ -19,6 +19,7 @@ pub mod environment;
 mod error;
 pub mod exposure;
 pub mod film;
+pub mod flip;
 pub mod frame;
 pub mod landscape;
 pub mod reference;

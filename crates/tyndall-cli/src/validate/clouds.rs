@@ -24,7 +24,8 @@ Examples:
 
 Both see the scene's clouds from its camera, lit by its sun alone, before a black
 sky, without turbulence and without repetition. Bins of pixels are compared, so
-that the noise of the walks stays small.";
+that the noise of the walks stays small; PSNR and FLIP (0 to 1, what people see
+at 67 pixels a degree) are of single pixels and have that noise in them.";
 
 /// What `tyndall validate clouds` takes.
 #[derive(Clone, Debug, clap::Args)]
@@ -117,6 +118,7 @@ fn to_json(rows: &[(Orders, CloudAccuracy)]) -> Value {
             "relative_square": found.relative_square,
             "correlation": found.correlation,
             "psnr_db": found.psnr_db,
+            "flip": found.flip,
             "noise": found.noise,
         })
     };
@@ -127,7 +129,7 @@ fn to_text(arguments: &ValidateCloudsArguments, rows: &[(Orders, CloudAccuracy)]
     let ([width_px, height_px], bin) = (arguments.size, arguments.bin);
     let mut text = format!(
         "Clouds against random walks: {}, {width_px} x {height_px} px, {} paths a pixel, seed {}, bins of {bin} x {bin}\n\n\
-         orders  mean ratio  relMSE  correlation  PSNR (dB)  noise of the mean\n",
+         orders  mean ratio  relMSE  correlation  PSNR (dB)    FLIP  noise of the mean\n",
         arguments.scene.source.display(),
         arguments.paths,
         arguments.seed,
@@ -136,12 +138,13 @@ fn to_text(arguments: &ValidateCloudsArguments, rows: &[(Orders, CloudAccuracy)]
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{:<7} {:>10.4} {:>7.4} {:>12.4} {:>10.1} {:>18.4}",
+            "{:<7} {:>10.4} {:>7.4} {:>12.4} {:>10.1} {:>7.4} {:>18.4}",
             orders.name(),
             found.mean_ratio,
             found.relative_square,
             found.correlation,
             found.psnr_db,
+            found.flip,
             found.noise
         );
     }

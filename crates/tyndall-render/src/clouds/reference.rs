@@ -14,6 +14,7 @@ use tyndall_scene::{CloudsParams, Orders, Scene};
 
 use super::source::{CloudSource, CloudSourceRequest};
 use crate::RenderError;
+use crate::flip::mean_flip;
 
 /// Scatterings after which a walk ends: light of more is none that a picture shows.
 const MOST_ORDERS: u32 = 10_000;
@@ -102,6 +103,9 @@ pub struct CloudAccuracy {
     pub correlation: f64,
     /// Peak signal to noise ratio (dB) over pixels with cloud; the peak is the largest of the reference.
     pub psnr_db: f64,
+    /// Mean difference that is seen ([`crate::flip`]) between the two as greys, both divided by the largest radiance of the
+    /// reference and shown without a tone map.
+    pub flip: f64,
     /// Standard error of the reference's mean over the mean: noise of the walks.
     pub noise: f64,
 }
@@ -137,9 +141,19 @@ impl CloudAccuracy {
             relative_square: relative / count,
             correlation: (is - i * s / count) / ((ii - i * i / count) * (ss - s * s / count)).sqrt(),
             psnr_db: 10.0 * (peak * peak * pixels / squares).log10(),
+            flip: mean_flip(
+                &greys(reference.iter().map(|truth| truth.radiance), peak),
+                &greys(picture.iter().copied(), peak),
+                width_px,
+            ),
             noise: error / reference.iter().map(|truth| truth.radiance).sum::<f64>(),
         })
     }
+}
+
+/// A picture of radiance as linear greys of which the brightest is white.
+fn greys(radiance: impl Iterator<Item = f64>, white: f64) -> Vec<[f64; 3]> {
+    radiance.map(|value| [value / white; 3]).collect()
 }
 
 /// Means of picture, reference and opacity over bins; the rest at the edges is left out.
@@ -172,10 +186,12 @@ mod tests {
         let same = CloudAccuracy::of(&values, &reference, 4, 1).expect("there is a cloud");
         assert!((same.mean_ratio - 1.0).abs() < 1e-12 && same.relative_square < 1e-12, "{same:?}");
         assert!((same.correlation - 1.0).abs() < 1e-12 && same.psnr_db > 200.0, "{same:?}");
+        assert!(same.flip.abs() < 1e-12, "{same:?}");
         let brighter: Vec<f64> = values.iter().map(|value| 1.1 * value).collect();
         let found = CloudAccuracy::of(&brighter, &reference, 4, 2).expect("there is a cloud");
         assert!((found.mean_ratio - 1.1).abs() < 1e-12 && (found.correlation - 1.0).abs() < 1e-12, "{found:?}");
         assert!((found.relative_square - 0.01).abs() < 3e-3, "a tenth, squared: {found:?}");
+        assert!(found.flip > 0.01 && found.flip < 0.3, "a tenth more is seen: {found:?}");
         assert_eq!(CloudAccuracy::of(&values, &truth(&[0.0; 8]), 4, 1), None, "no light, no judgement");
     }
 }
