@@ -5,7 +5,8 @@ use rayon::ThreadPoolBuilder;
 use tyndall_benches::{Samples, measure};
 use tyndall_clouds::{
     Automaton, AutomatonConfig, CloudDensity, Edges, Ellipsoid, EllipsoidSupply, HumidEllipsoids, Probabilities,
-    ProbabilityLayer, SmoothingWindow, WindKnot, WindProfile, ball_density_into, sun_depth_into,
+    ProbabilityLayer, SmoothingWindow, WindKnot, WindProfile, ball_density_into, cloud_light, floor_shadow,
+    sun_depth_into, sunlight_scattered_often,
 };
 use tyndall_core::grid::Grid3;
 
@@ -147,12 +148,22 @@ pub(crate) fn frame(effort: Effort) -> Result<Case> {
         let _ = ball_density_into(&share, 2.0, Edges::Open, &mut balls);
         let _ = sun_depth_into(&balls, [0.3, 0.2, 0.8], &mut depth);
     })?;
+    let (sun, transport) = ([0.3, 0.2, 0.8], 0.15);
+    let mut matter = balls.clone();
+    matter.cells_mut().iter_mut().for_each(|cell| *cell *= 0.07);
+    let few = Effort { samples: effort.samples.min(2), ..effort };
+    let spread = timed(few, || drop(sunlight_scattered_often(&matter, 50.0, sun, transport, Edges::Wrap)))?;
+    let light = timed(few, || drop(cloud_light(&matter, 50.0, sun, transport, Edges::Wrap)))?;
+    let floor = timed(few, || drop(floor_shadow(&matter, 50.0, sun, transport, Edges::Wrap)))?;
     let ways = vec![
-        ("step and all below".to_owned(), all),
+        ("step, smoothing, balls, light volume".to_owned(), all),
         ("smoothing, 5^3 cells x 5 steps".to_owned(), smooth),
         ("balls, R = 2".to_owned(), convolve),
         ("light volume, high sun".to_owned(), high),
         ("light volume, low sun".to_owned(), low),
+        ("light volume and diffusion, wrapped".to_owned(), spread),
+        ("the same with light of sky and ground".to_owned(), light),
+        ("floor shadow".to_owned(), floor),
     ];
     Ok(Case { name: FRAME, ways })
 }

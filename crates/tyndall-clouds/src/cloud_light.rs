@@ -96,6 +96,10 @@ fn diffuse_sunlight(
     thickness.cells_mut().par_iter_mut().for_each(|cell| *cell *= transport * cell_m);
     let mut source = sun_depth.clone();
     source.cells_mut().par_iter_mut().zip(thickness.cells()).for_each(|(cell, thickness)| {
+        if *thickness <= 0.0 {
+            *cell = 0.0;
+            return;
+        }
         // The mean of the beam over the cell, where it falls off from one end to the other.
         let half = 0.5 * thickness;
         let mean = if half > 1e-3 { half.sinh() / half } else { 1.0 };

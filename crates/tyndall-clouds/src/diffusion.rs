@@ -12,54 +12,40 @@
 //! Accuracy, in pictures of a ragged cloud against random walks, with one set of constants: mean 1.00 under an overhead sun with
 //! even scattering, 0.97 under an oblique one with g = 0.85. The constants of gaps and of what counts as clear were fitted there.
 
+mod faces;
+mod level;
+
 use rayon::prelude::*;
 use tyndall_core::grid::Grid3;
 
 use crate::edges::Edges;
+use faces::Faces;
+use level::Level;
 
 /// Steps on the finest grid; twice as many on each coarser one, up to [`MOST_STEPS`].
 const STEPS: usize = 24;
 const MOST_STEPS: usize = 200;
-/// Share of a step that is taken; all of it would let neighbouring cells swing.
-const STEP_SHARE: f32 = 0.85;
 /// Cells along the longest side below which grids do not get coarser.
 const FEWEST_CELLS: usize = 2;
 /// Share of the thickest cell's optical thickness at which a cell counts as cloud rather than clear air, to 1 part in e.
 const CLEAR_THICKNESS: f32 = 0.03;
-/// Resistance between two clear cells with cloud all around: light crosses narrow gaps slanted, from wall to wall.
-const GAP_RESISTANCE: f32 = 1.6;
-/// Resistance between clear cells with no cloud near: little, but not so little that steps stay small.
-const LEAST_RESISTANCE: f32 = 0.05;
 /// Levels by which cells are coarser that tell how much cloud is near.
 const SURROUNDINGS: usize = 2;
-/// Resistance between cloud and clear air or the dark.
-const SURFACE_RESISTANCE: f32 = 2.13;
-
-/// A grid of one width.
-struct Level {
-    size: [usize; 3],
-    /// Optical thickness of each cell.
-    thickness: Vec<f32>,
-    /// Share of clear air.
-    clear: Vec<f32>,
-    /// Share of cloud in the wider surroundings.
-    crowd: Vec<f32>,
-    /// Light that starts in each cell (per area of its side).
-    source: Vec<f32>,
-}
 
 /// Mean radiance (1/sr) in every cell of light that starts in the cells: `thickness` is their optical depth across, `source`
 /// the light per area of a side. Light that leaves an open grid is gone.
 #[must_use]
 pub(crate) fn diffuse(thickness: &Grid3<f32>, source: &Grid3<f32>, edges: Edges) -> Grid3<f32> {
     let thickest = thickness.cells().iter().copied().fold(f32::MIN_POSITIVE, f32::max);
-    let clear_share = |thickness: &f32| (-thickness / (CLEAR_THICKNESS * thickest)).exp();
+    // Most cells hold no cloud at all, and exponentials are dear.
+    let clear_share =
+        |thickness: &f32| if *thickness > 0.0 { (-thickness / (CLEAR_THICKNESS * thickest)).exp() } else { 1.0 };
     let clear = thickness.cells().par_iter().map(clear_share).collect();
     let [thickness_cells, source] = [thickness, source].map(|grid| grid.cells().to_vec());
     let own = Level { size: thickness.size(), thickness: thickness_cells, clear, crowd: Vec::new(), source };
-    let mut levels = vec![coarser(&own)];
+    let mut levels = vec![own.coarser()];
     while levels.last().is_some_and(|last| last.size.iter().any(|cells| *cells > FEWEST_CELLS)) {
-        levels.push(coarser(&levels[levels.len() - 1]));
+        levels.push(levels[levels.len() - 1].coarser());
     }
     for index in 0..levels.len() {
         levels[index].crowd = crowd(&levels[index..], edges);
@@ -69,7 +55,7 @@ pub(crate) fn diffuse(thickness: &Grid3<f32>, source: &Grid3<f32>, edges: Edges)
         if fluence.size() != level.size {
             fluence = interpolated(&fluence, level.size, edges);
         }
-        relax(level, &mut fluence, (STEPS << index.min(8)).min(MOST_STEPS), edges);
+        Faces::new(level, edges).relax(&mut fluence, (STEPS << index.min(8)).min(MOST_STEPS));
     }
     within_cloud(&fluence, &levels[0], thickness.size(), edges)
 }
@@ -87,31 +73,6 @@ fn within_cloud(fluence: &Grid3<f32>, level: &Level, size: [usize; 3], edges: Ed
     radiance
 }
 
-/// Cells of twice the width: the mean thickness times two, the sum of the light over four sides.
-fn coarser(fine: &Level) -> Level {
-    let size = fine.size;
-    let coarse = size.map(|cells| cells.div_ceil(2));
-    let sum = |values: &[f32], place: usize, weight: f32| {
-        let low = [place % coarse[0], place / coarse[0] % coarse[1], place / (coarse[0] * coarse[1])].map(|i| 2 * i);
-        let mut sum = 0.0;
-        for z in low[2]..(low[2] + 2).min(size[2]) {
-            for y in low[1]..(low[1] + 2).min(size[1]) {
-                let row = (z * size[1] + y) * size[0];
-                sum += values[row + low[0]..row + (low[0] + 2).min(size[0])].iter().sum::<f32>();
-            }
-        }
-        sum * weight
-    };
-    let cells = coarse.iter().product::<usize>();
-    Level {
-        size: coarse,
-        thickness: (0..cells).into_par_iter().map(|place| sum(&fine.thickness, place, 0.25)).collect(),
-        clear: (0..cells).into_par_iter().map(|place| sum(&fine.clear, place, 0.125)).collect(),
-        crowd: Vec::new(),
-        source: (0..cells).into_par_iter().map(|place| sum(&fine.source, place, 0.25)).collect(),
-    }
-}
-
 /// The share of cloud around the cells of the first of some levels: that of cells [`SURROUNDINGS`] levels coarser.
 fn crowd(levels: &[Level], edges: Edges) -> Vec<f32> {
     let wide = SURROUNDINGS.min(levels.len() - 1);
@@ -121,75 +82,6 @@ fn crowd(levels: &[Level], edges: Edges) -> Vec<f32> {
         share = interpolated(&share, level.size, edges);
     }
     share.cells().to_vec()
-}
-
-/// Jacobi steps towards the balance of every cell.
-fn relax(level: &Level, fluence: &mut Grid3<f32>, steps: usize, edges: Edges) {
-    let mut next = fluence.clone();
-    for _ in 0..steps {
-        let old = fluence.cells();
-        let rows = next.cells_mut().par_chunks_exact_mut(level.size[0]);
-        rows.enumerate().for_each(|(row, cells)| relax_row(level, old, row, edges, cells));
-        std::mem::swap(fluence, &mut next);
-    }
-}
-
-/// A row of cells: fluence, thickness, share of clear air, share of cloud around.
-#[derive(Clone, Copy)]
-struct Row<'a>([&'a [f32]; 4]);
-
-impl Row<'_> {
-    fn at(self, x: usize) -> [f32; 4] {
-        self.0.map(|values| values[x])
-    }
-}
-
-fn relax_row(level: &Level, old: &[f32], row: usize, edges: Edges, cells: &mut [f32]) {
-    let [nx, ny, nz] = level.size;
-    let (y, z) = (row % ny, row / ny);
-    let wraps = edges == Edges::Wrap;
-    let row_at = |y: usize, z: usize| {
-        let range = (z * ny + y) * nx..(z * ny + y + 1) * nx;
-        Row([&old[range.clone()], &level.thickness[range.clone()], &level.clear[range.clone()], &level.crowd[range]])
-    };
-    let (south, north) = neighbours(y, ny, wraps);
-    let (below, above) = neighbours(z, nz, false);
-    let across = [
-        south.map(|y| row_at(y, z)),
-        north.map(|y| row_at(y, z)),
-        below.map(|z| row_at(y, z)),
-        above.map(|z| row_at(y, z)),
-    ];
-    let here = row_at(y, z);
-    let source = &level.source[row * nx..(row + 1) * nx];
-    for (x, (cell, source)) in cells.iter_mut().zip(source).enumerate() {
-        let own = here.at(x);
-        let (west, east) = neighbours(x, nx, wraps);
-        let along = [west, east].map(|x| x.map(|x| here.at(x)));
-        let (mut gain, mut loss) = (*source, 0.0);
-        for other in along.into_iter().chain(across.iter().map(|row| row.map(|row| row.at(x)))) {
-            let conductance = 1.0 / resistance(own, other);
-            gain += conductance * other.map_or(0.0, |other| other[0]);
-            loss += conductance;
-        }
-        *cell = own[0] + STEP_SHARE * (gain / loss - own[0]);
-    }
-}
-
-/// The places before and after one along an axis.
-fn neighbours(place: usize, count: usize, wraps: bool) -> (Option<usize>, Option<usize>) {
-    let before = place.checked_sub(1).or(wraps.then_some(count - 1));
-    (before, Some(place + 1).filter(|after| *after < count).or(wraps.then_some(0)))
-}
-
-/// Difference of fluence over flux across a face, to another cell or out of the grid.
-fn resistance([_, thickness, clear, crowd]: [f32; 4], other: Option<[f32; 4]>) -> f32 {
-    let Some([_, other_thickness, other_clear, other_crowd]) = other else {
-        return (1.5 * thickness + SURFACE_RESISTANCE * (1.0 - clear)).max(LEAST_RESISTANCE);
-    };
-    let surface = SURFACE_RESISTANCE * (clear - other_clear).abs();
-    let gap = 0.5 * GAP_RESISTANCE * (crowd + other_crowd);
-    (1.5 * (thickness + other_thickness) + surface).max(gap).max(LEAST_RESISTANCE)
 }
 
 /// A grid at the cells of one about twice as fine.

@@ -2,7 +2,7 @@
 //!
 //! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference Evaluator for Alternating Images"
 //! (2020). Both pictures are blurred as the eye blurs them at a distance (section 4.1: contrast sensitivity in `YyCxCz`), compared
-//! in a space where distances are seen alike (HyAB in CIELAB with Hunt's adjustment), and the difference is amplified where edges
+//! in a space where distances are seen alike (`HyAB` in CIELAB with Hunt's adjustment), and the difference is amplified where edges
 //! and points come or go (section 4.2). 0 is equal, 1 black beside white.
 //!
 //! Takes linear Rec.709 in 0..1: a scene's light has to be tone-mapped before. Agrees with the authors' program to four
@@ -160,7 +160,7 @@ mod tests {
     fn larger_errors_are_seen_more_and_fine_patterns_less() {
         let grey = even([0.2; 3]);
         let with = |step: usize, height: f64| -> Vec<[f64; 3]> {
-            let pixel = |index: usize| [0.2 + if index % 24 / step % 2 == 0 { height } else { -height }; 3];
+            let pixel = |index: usize| [0.2 + if (index % 24 / step).is_multiple_of(2) { height } else { -height }; 3];
             (0..grey.len()).map(pixel).collect()
         };
         let found = |step, height| mean_flip(&grey, &with(step, height), 24);
