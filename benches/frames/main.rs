@@ -2,7 +2,7 @@
 
 mod scene_run;
 
-use anyhow::{Result, ensure};
+use anyhow::{Context as _, Result, ensure};
 use clap::Parser;
 use serde_json::{Map, Value, json};
 use tyndall_benches::{CommonOptions, JsonLines, Samples, is_smoke, print_line};
@@ -21,6 +21,15 @@ struct Options {
     /// Frames of each series
     #[arg(long, default_value_t = 40, value_parser = clap::value_parser!(u16).range(1..))]
     frames: u16,
+    /// Size of the frames (pixels), such as 640,480; may be given several times
+    #[arg(long, value_name = "W,H", value_parser = parse_size_px)]
+    size: Vec<[u32; 2]>,
+    /// Sets a parameter of every scene; may be given several times
+    #[arg(long, value_name = "GROUP.KEY=VALUE", value_parser = parse_setting)]
+    set: Vec<(String, String)>,
+    /// Only frames in which nothing changes; other columns show 0
+    #[arg(long)]
+    still: bool,
     #[command(flatten)]
     common: CommonOptions,
 }
@@ -28,7 +37,11 @@ struct Options {
 fn main() -> Result<()> {
     let options = Options::parse();
     let smoke = is_smoke(&options.common);
-    let sizes_px: &[[u32; 2]] = if smoke { &[[32, 24]] } else { &[[640, 480], [1280, 720]] };
+    let sizes_px = match (smoke, options.size.as_slice()) {
+        (true, _) => &[[32, 24]],
+        (false, []) => [[640, 480], [1280, 720]].as_slice(),
+        (false, sizes_px) => sizes_px,
+    };
     let frames = if smoke { 1 } else { options.frames };
     let gpu = Gpu::open(&GpuOptions { adapter: options.adapter, max_memory_bytes: None })?;
     let mut json_lines = JsonLines::create(options.common.json.as_deref())?;
@@ -41,9 +54,12 @@ fn main() -> Result<()> {
         presets.truncate(1);
     }
     for preset in presets {
-        let scene = preset.load()?.scene;
+        let mut scene = preset.load()?.scene;
+        for (path, text) in &options.set {
+            scene.set_text(path, text)?;
+        }
         for size_px in sizes_px {
-            let run = SceneRun::measure(&gpu, &scene, *size_px, frames)?;
+            let run = SceneRun::measure(&gpu, &scene, *size_px, (frames, options.still))?;
             print_line(&row(preset.name, *size_px, &run))?;
             print_line(&passes("still", &run.still.passes))?;
             print_line(&passes("sun moves", &run.moving.passes))?;
@@ -54,9 +70,19 @@ fn main() -> Result<()> {
     Ok(())
 }
 
+fn parse_size_px(text: &str) -> Result<[u32; 2]> {
+    let (width, height) = text.split_once(',').context("a size is width,height in pixels")?;
+    Ok([width.parse()?, height.parse()?])
+}
+
+fn parse_setting(text: &str) -> Result<(String, String)> {
+    let (path, value) = text.split_once('=').context("a setting is group.parameter=value")?;
+    Ok((path.to_owned(), value.to_owned()))
+}
+
 fn heading(adapter: &AdapterReport, frames: u16) -> String {
     format!(
-        "{adapter}, {} CPU threads; milliseconds; series of {frames} frames\n{:<14} {:>9} | {:>7} {:>7} | {:>7} {:>7} | \
+        "{adapter}, {} CPU threads; milliseconds; series of {frames} frames\n{:<14} {:>9} | {:>7} {:>7} | {:>7} {:>7} {:>7} | \
          {:>9} {:>7} | {:>11} {:>7} | {:>11} {:>7}",
         std::thread::available_parallelism().map_or(1, usize::from),
         "scene",
@@ -65,6 +91,7 @@ fn heading(adapter: &AdapterReport, frames: u16) -> String {
         "tables",
         "still",
         "p95",
+        "CPU",
         "sun moves",
         "p95",
         "air waiting",
@@ -79,12 +106,13 @@ fn row(name: &str, [width_px, height_px]: [u32; 2], run: &SceneRun) -> String {
     let (still, moving) = (&run.still.wall, &run.moving.wall);
     let (waiting, air) = (&run.air_waiting.wall, &run.air.wall);
     format!(
-        "{name:<14} {size:>9} | {:>7.1} {:>7.1} | {:>7.2} {:>7.2} | {:>9.2} {:>7.2} | {:>11.2} {:>7.2} | \
+        "{name:<14} {size:>9} | {:>7.1} {:>7.1} | {:>7.2} {:>7.2} {:>7.1} | {:>9.2} {:>7.2} | {:>11.2} {:>7.2} | \
          {:>11.2} {:>7.2}",
         run.first_ms,
         run.first_tables_ms,
         still.median_ms(),
         still.p95_ms(),
+        run.still.cpu.median_ms(),
         moving.median_ms(),
         moving.p95_ms(),
         waiting.median_ms(),
@@ -119,7 +147,7 @@ fn figures(adapter: &AdapterReport, name: &str, size_px: [u32; 2], run: &SceneRu
 fn series(series: &Series) -> Value {
     let passes: Map<String, Value> =
         series.passes.iter().map(|(name, samples)| ((*name).to_owned(), statistics(samples))).collect();
-    json!({ "wall": statistics(&series.wall), "passes": passes })
+    json!({ "wall": statistics(&series.wall), "cpu": statistics(&series.cpu), "passes": passes })
 }
 
 fn statistics(samples: &Samples) -> Value {

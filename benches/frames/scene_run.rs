@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use anyhow::Result;
+use cpu_time::ProcessTime;
 use tyndall_benches::Samples;
 use tyndall_gpu::Gpu;
 use tyndall_render::sky::{TableBuilding, Wake};
@@ -27,6 +28,8 @@ pub(crate) type PassTimes = BTreeMap<&'static str, Samples>;
 pub(crate) struct Series {
     /// From the call until the GPU has finished.
     pub(crate) wall: Samples,
+    /// Of all threads of the process, which on a software adapter is the time of the adapter too.
+    pub(crate) cpu: Samples,
     /// On the GPU's own clock; a pass that not every frame has is told of where it ran.
     pub(crate) passes: PassTimes,
 }
@@ -49,7 +52,12 @@ pub(crate) struct SceneRun {
 }
 
 impl SceneRun {
-    pub(crate) fn measure(gpu: &Gpu, scene: &Scene, size_px: [u32; 2], frames: u16) -> Result<Self> {
+    pub(crate) fn measure(
+        gpu: &Gpu,
+        scene: &Scene,
+        size_px: [u32; 2],
+        (frames, only_still): (u16, bool),
+    ) -> Result<Self> {
         let config = RendererConfig::default();
         let started = Instant::now();
         let mut renderer = Renderer::new(gpu, config)?;
@@ -63,10 +71,11 @@ impl SceneRun {
         renderer.invalidate_tables();
         let first_tables_ms = draw(gpu, &mut renderer, &mut target, scene)?;
         let still = series(gpu, &mut renderer, &mut target, (0..frames).map(|_| scene.clone()))?;
-        let moving = series(gpu, &mut renderer, &mut target, (0..frames).map(|frame| moved(scene, frame)))?;
-        let air_waiting = series(gpu, &mut renderer, &mut target, (0..frames).map(|frame| hazed(scene, frame)))?;
+        let changes = if only_still { 0 } else { frames };
+        let moving = series(gpu, &mut renderer, &mut target, (0..changes).map(|frame| moved(scene, frame)))?;
+        let air_waiting = series(gpu, &mut renderer, &mut target, (0..changes).map(|frame| hazed(scene, frame)))?;
         renderer.set_table_building(TableBuilding::Background(Wake::new(|| {})));
-        let air = series(gpu, &mut renderer, &mut target, (0..frames).map(|frame| hazed(scene, frame)))?;
+        let air = series(gpu, &mut renderer, &mut target, (0..changes).map(|frame| hazed(scene, frame)))?;
         Ok(Self { first_ms, first_tables_ms, still, moving, air_waiting, air })
     }
 }
@@ -94,16 +103,18 @@ fn series(
     target: &mut FrameTarget,
     scenes: impl Iterator<Item = Scene>,
 ) -> Result<Series> {
-    let mut wall_ms = Vec::new();
+    let (mut wall_ms, mut cpu_ms) = (Vec::new(), Vec::new());
     let mut passes: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
     for scene in scenes {
+        let started = ProcessTime::now();
         wall_ms.push(draw(gpu, renderer, target, &scene)?);
+        cpu_ms.push(1e3 * started.elapsed().as_secs_f64());
         for timing in renderer.timings(gpu)? {
             passes.entry(timing.name).or_default().push(timing.ms);
         }
     }
     let passes = passes.into_iter().map(|(name, times_ms)| (name, times_ms.into_iter().collect())).collect();
-    Ok(Series { wall: wall_ms.into_iter().collect(), passes })
+    Ok(Series { wall: wall_ms.into_iter().collect(), cpu: cpu_ms.into_iter().collect(), passes })
 }
 
 /// Draws one frame and waits for it; milliseconds.

@@ -9,10 +9,12 @@
 const CLOUD_STEPS: u32 = 400u;
 /// Step over the side of a cell near the camera, and over the distance far away.
 const CLOUD_STEP_CELLS: f32 = 0.5;
-const CLOUD_STEP_GROWTH: f32 = 0.006;
-/// Way towards the sun (cells) along which turbulence throws shadows, and its samples.
-const CLOUD_NEAR_CELLS: f32 = 2.0;
-const CLOUD_NEAR_TAPS: u32 = 2u;
+const CLOUD_STEP_GROWTH: f32 = 0.01;
+/// Way towards the sun (cells) along which turbulence throws shadows.
+const CLOUD_NEAR_CELLS: f32 = 1.5;
+/// Transmittance from which on a ray misses the shadows of turbulence, and how much longer its steps are then.
+const CLOUD_DIM: f32 = 0.03;
+const CLOUD_DIM_STEPS: f32 = 4.0;
 /// Transmittances at which a ray has seen enough.
 const CLOUD_DARK: f32 = 0.002;
 const CLOUD_DARK_DIFFUSE: f32 = 0.01;
@@ -58,20 +60,15 @@ fn cloud_phases(nu: f32) -> vec2<f32> {
 
 /// Optical depth towards the sun: what is near with its turbulence, the rest from the cells.
 fn cloud_sun_depth(place: vec3<f32>, level: f32) -> f32 {
-    let stride = CLOUD_NEAR_CELLS / f32(CLOUD_NEAR_TAPS);
-    let sun = cloud_shade.lamp;
-    var near = 0.0;
-    for (var tap = 0u; tap < CLOUD_NEAR_TAPS; tap++) { // loops: CLOUD_NEAR_TAPS
-        let at = place + (f32(tap) + 0.5) * stride * sun;
-        let share = cloud_share(at);
-        if (share > 0.0) {
-            near += cloud_detailed(share, at, level);
-        }
+    let middle = place + 0.5 * CLOUD_NEAR_CELLS * cloud_shade.lamp;
+    var near = cloud_share(middle);
+    if (near > 0.0) {
+        near = cloud_detailed(near, middle, level);
     }
-    let beyond = place + CLOUD_NEAR_CELLS * sun;
+    let beyond = place + CLOUD_NEAR_CELLS * cloud_shade.lamp;
     let is_inside = (beyond.z > 0.0) & (beyond.z < clouds.size.z);
     let far = select(0.0, cloud_light_at(beyond).x, is_inside);
-    return near * stride * clouds.cell_m * clouds.full_per_m + far;
+    return near * CLOUD_NEAR_CELLS * clouds.cell_m * clouds.full_per_m + far;
 }
 
 /// Gathers light along a ray up to `limit_m`; `jitter` 0..1 moves the samples within their steps.
@@ -87,7 +84,9 @@ fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
     var t = span.x;
     for (var i = 0u; i < CLOUD_STEPS; i++) { // loops: CLOUD_STEPS
         if (t >= span.y) { break; }
-        let step = min(max(CLOUD_STEP_CELLS * clouds.cell_m, CLOUD_STEP_GROWTH * t), span.y - t);
+        let is_dim = light.transmittance < CLOUD_DIM;
+        let fine_step = max(CLOUD_STEP_CELLS * clouds.cell_m, CLOUD_STEP_GROWTH * t);
+        let step = min(fine_step * select(1.0, CLOUD_DIM_STEPS, is_dim), span.y - t);
         let at = t + jitter * step;
         let h = altitude_along(radius, h0, direction.z, at);
         let place = cloud_place(cloud_eye_m.xy + at * direction.xy, h);
@@ -106,7 +105,10 @@ fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
         let depth = cloud_detailed(share, place, level) * clouds.full_per_m * fade * step;
         if (depth <= 0.0) { continue; }
         let cell = cloud_light_at(place);
-        let sun_depth = cloud_sun_depth(place, level);
+        var sun_depth = cell.x;
+        if (!is_dim) {
+            sun_depth = cloud_sun_depth(place, level);
+        }
         let left = exp(-depth);
         let seen = light.transmittance * (1.0 - left);
         let direct = exp(-sun_depth);

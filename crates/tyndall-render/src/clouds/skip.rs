@@ -4,10 +4,10 @@ use tyndall_clouds::Edges;
 use tyndall_core::grid::Grid3;
 
 /// Side of a block (cells).
-pub(super) const BLOCK_CELLS: usize = 4;
+pub(super) const BLOCK_CELLS: usize = 2;
 
 /// Largest distance that is told (blocks); a ray that has come so far asks again.
-const MOST_BLOCKS: u8 = 40;
+const MOST_BLOCKS: u8 = 60;
 
 /// For each block how many cells, along each axis, a ray may go on from anywhere in it without meeting cloud; 0 where there
 /// may be some. Interpolation between cells' centres counts as cloud.
