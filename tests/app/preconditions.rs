@@ -4,8 +4,8 @@
 //! except where all orders matter: the tables of the others take seconds on a software adapter.
 
 use tyndall_scene::{
-    AerosolInput, CameraProjection, CloudFileHolds, CloudKind, ExposureMode, LandscapeKind, MoonPhase, MoonPosition,
-    Orders, OrdersDetail, Scene, SkyMode, SunPosition,
+    AerosolInput, CameraProjection, CloudFileHolds, CloudKind, DesertKind, DuneModel, Edges, ExposureMode,
+    LandscapeKind, MoonPhase, MoonPosition, Orders, OrdersDetail, Scene, Side, SkyMode, SunPosition,
 };
 
 /// A scene and the parameters that are tried in it.
@@ -312,6 +312,95 @@ pub(crate) const ALL: &[Precondition] = &[
         ],
     },
     Precondition {
+        name: "a small field of dunes",
+        prepare: dunes,
+        parameters: &[
+            ("desert.kind", Some(0.0)),
+            ("desert.steps", Some(90.0)),
+            ("desert.ripple_steps", Some(30.0)),
+            ("dunes.model", None),
+            ("dunes.side", Some(1.0)),
+            ("dunes.edges", None),
+            ("dunes.cell_m", Some(0.6)),
+            ("dunes.sand_cells", Some(6.0)),
+            ("dunes.noise_cells", Some(4.0)),
+            ("dunes.slab_cells", Some(0.3)),
+            ("dunes.lift", Some(0.6)),
+            ("dunes.hop_cells", Some(9.0)),
+            ("dunes.speed_up", Some(2.0)),
+            ("dunes.drop_on_sand", Some(0.2)),
+            ("dunes.shadow_deg", Some(6.0)),
+            ("dunes.repose_deg", Some(20.0)),
+            ("dunes.repose_drop_deg", Some(5.0)),
+            ("dunes.slide_passes", Some(1.0)),
+            ("dunes.seed", Some(7.0)),
+            ("dune_wind.direction_deg", Some(60.0)),
+            ("dune_wind.winds", Some(3.0)),
+            ("dune_plants.enabled", None),
+            ("ripples.side", Some(1.0)),
+            ("ripples.hop_cells", Some(5.0)),
+            ("ripples.hop_per_height", Some(1.0)),
+            ("ripples.layer_cells", Some(0.3)),
+            ("ripples.creep", Some(0.6)),
+            ("ripples.lee_slope", Some(2.0)),
+            ("ripples.dither", None),
+            ("ripples.planed_above_cells", Some(5.0)),
+            ("ripples.depth_cells", Some(0.1)),
+            ("ripples.noise_cells", Some(1.0)),
+            ("ripples.seed", Some(7.0)),
+        ],
+    },
+    Precondition {
+        name: "dunes on bare rock between open edges, under two winds",
+        prepare: |scene| {
+            dunes(scene);
+            scene.dunes.sand_cells = 0.3;
+            scene.dunes.edges = Edges::Open;
+            (scene.dunes.inflow, scene.dune_wind.winds) = (0.1, 2);
+            (scene.dune_rock.enabled, scene.dune_rock.rate) = (true, 1.0);
+        },
+        parameters: &[
+            ("dunes.drop_on_bare", Some(0.9)),
+            ("dunes.inflow", Some(0.9)),
+            ("dune_wind.divergence_deg", Some(50.0)),
+            ("dune_wind.ratio", Some(3.0)),
+            ("dune_wind.period_steps", Some(20.0)),
+            ("dune_rock.enabled", None),
+            ("dune_rock.hardness", Some(0.0)),
+            ("dune_rock.rate", Some(0.3)),
+        ],
+    },
+    Precondition {
+        name: "dunes under plants",
+        prepare: |scene| {
+            dunes(scene);
+            (scene.dune_plants.enabled, scene.dune_plants.cover) = (true, 0.2);
+        },
+        parameters: &[
+            ("dune_plants.cover", Some(0.5)),
+            ("dune_plants.clump_cells", Some(6.0)),
+            ("dune_plants.growth", Some(0.4)),
+            ("dune_plants.best_burial_cells", Some(0.4)),
+            ("dune_plants.tolerance_cells", Some(0.1)),
+            ("dune_plants.repose_deg", Some(15.0)),
+        ],
+    },
+    Precondition {
+        name: "dunes by the rule of Onoue and Nishita",
+        prepare: |scene| {
+            dunes(scene);
+            scene.dunes.model = DuneModel::Classic;
+        },
+        parameters: &[
+            ("dune_classic.hop_cells", Some(9.0)),
+            ("dune_classic.hop_gain", Some(0.5)),
+            ("dune_classic.layer_cells", Some(0.2)),
+            ("dune_classic.layer_excess", Some(0.9)),
+            ("dune_classic.layer_gain", Some(-0.5)),
+            ("dune_classic.creep", Some(0.4)),
+        ],
+    },
+    Precondition {
         name: "an orthographic camera over squares",
         prepare: |scene| {
             manual(scene);
@@ -362,6 +451,15 @@ fn cloudy(scene: &mut Scene) {
     scene.camera.pitch_deg = 40.0;
     let grid = &mut scene.cloud_grid;
     (grid.cells_east, grid.cells_north, grid.cells_up, grid.warm_up_steps) = (32, 32, 16, 20);
+}
+
+/// A small field of dunes before a camera that looks down at it.
+fn dunes(scene: &mut Scene) {
+    manual(scene);
+    scene.desert.kind = DesertKind::Dunes;
+    (scene.desert.steps, scene.desert.ripple_steps) = (120, 200);
+    (scene.dunes.side, scene.ripples.side) = (Side::Cells64, Side::Cells64);
+    (scene.camera.altitude_m, scene.camera.pitch_deg) = (12.0, -12.0);
 }
 
 /// A small grid of balls over a camera that looks up at it.

@@ -13,7 +13,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tyndall-clouds", &["tyndall-core"]),
     ("tyndall-dunes", &["tyndall-core"]),
     ("tyndall-io", &["tyndall-core"]),
-    ("tyndall-scene", &["tyndall-core", "tyndall-scattering", "tyndall-clouds", "tyndall-assets"]),
+    ("tyndall-scene", &["tyndall-core", "tyndall-scattering", "tyndall-clouds", "tyndall-dunes", "tyndall-assets"]),
     ("tyndall-gpu", &["tyndall-shaders", "tyndall-core"]),
     ("tyndall-gpu-sim", &["tyndall-gpu", "tyndall-dunes"]),
     ("tyndall-render", &["tyndall-gpu", "tyndall-scene", "tyndall-io"]),

@@ -1,8 +1,8 @@
 //! Which parameters have no effect at present, and why: the app shows those disabled.
 
 use tyndall_scene::{
-    AerosolInput, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, ExposureMode, LandscapeKind, MoonPhase,
-    MoonPosition, Orders, Scene, SkyMode, SunPosition,
+    AerosolInput, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, DesertKind, DuneModel, Edges, ExposureMode,
+    LandscapeKind, MoonPhase, MoonPosition, Orders, Scene, SkyMode, SunPosition,
 };
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
@@ -26,6 +26,13 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
             Some("The ground is plain; set Pattern to checker.")
         }
         ("landscape", name) => landscape(scene.landscape.kind, name),
+        ("desert", "kind") => None,
+        ("desert" | "dunes" | "dune_classic" | "dune_wind" | "dune_plants" | "dune_rock" | "ripples", _)
+            if scene.desert.kind == DesertKind::None =>
+        {
+            Some("There is no desert; set Kind of the desert to dunes.")
+        }
+        ("dunes" | "dune_classic" | "dune_wind" | "dune_plants" | "dune_rock", name) => dunes(scene, group, name),
         ("clouds", "kind") => None,
         ("clouds" | "cloud_grid" | "cloud_vapour" | "cloud_wind" | "cloud_matter", _)
             if scene.clouds.kind == CloudKind::None =>
@@ -37,9 +44,9 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
             Some("The ground has the spectrum of a material; set Material to colour.")
         }
         ("sky", "aerial_columns" | "aerial_rows" | "aerial_distance_km")
-            if scene.landscape.kind == LandscapeKind::None =>
+            if scene.landscape.kind == LandscapeKind::None && scene.desert.kind == DesertKind::None =>
         {
-            Some("Nothing stands in the air; set Kind of the landscape.")
+            Some("Nothing stands in the air; set Kind of the landscape or the desert.")
         }
         ("sky", "orders_detail") if scene.sky.orders == Orders::Single => {
             Some("Light counts that was scattered once; set Orders to all.")
@@ -58,6 +65,30 @@ fn landscape(kind: LandscapeKind, name: &str) -> Option<&'static str> {
     match (kind, name) {
         (_, "kind") => None,
         (LandscapeKind::None, _) => Some("There is no landscape; set Kind to one."),
+        _ => None,
+    }
+}
+
+/// Of a desert that there is.
+fn dunes(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
+    let is_classic = scene.dunes.model == DuneModel::Classic;
+    match (group, name) {
+        ("dunes", "slab_cells" | "lift" | "hop_cells" | "speed_up" | "drop_on_sand" | "drop_on_bare") if is_classic => {
+            Some("The sand moves in layers; set Model to slab.")
+        }
+        ("dunes", "inflow") if is_classic || scene.dunes.edges == Edges::Periodic => {
+            Some("No slab comes in over an edge; set Model to slab and Edges to open.")
+        }
+        ("dune_classic", _) if !is_classic => Some("The sand moves in slabs; set Model of dunes to classic."),
+        ("dune_wind", "divergence_deg" | "ratio" | "period_steps") if scene.dune_wind.winds == 1 => {
+            Some("There is one wind all the time; raise Winds.")
+        }
+        ("dune_plants", name) if name != "enabled" && !scene.dune_plants.enabled => {
+            Some("There are no plants; switch Enabled on.")
+        }
+        ("dune_rock", name) if name != "enabled" && !scene.dune_rock.enabled => {
+            Some("The rock does not wear; switch Enabled on.")
+        }
         _ => None,
     }
 }
@@ -202,6 +233,7 @@ mod tests {
             ("ground", "pattern"),
             ("landscape", "kind"),
             ("clouds", "kind"),
+            ("desert", "kind"),
             ("sky", "mode"),
             ("haze", "enabled"),
         ] {
@@ -216,6 +248,9 @@ mod tests {
             "film.ev100",
             "ground.tile_m",
             "landscape.size_km",
+            "dunes.hop_cells",
+            "dune_wind.ratio",
+            "ripples.creep",
             "sky.aerial_rows",
             "moon.elevation_deg",
             "moon.phase_deg",

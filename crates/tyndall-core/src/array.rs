@@ -9,6 +9,8 @@ pub enum ArrayData {
     U16(Vec<u16>),
     /// 32-bit whole numbers.
     U32(Vec<u32>),
+    /// 32-bit whole numbers with a sign.
+    I32(Vec<i32>),
     /// 64-bit whole numbers.
     U64(Vec<u64>),
     /// 64-bit whole numbers with a sign.
@@ -27,6 +29,7 @@ impl ArrayData {
             Self::U8(values) => values.len(),
             Self::U16(values) => values.len(),
             Self::U32(values) => values.len(),
+            Self::I32(values) => values.len(),
             Self::U64(values) => values.len(),
             Self::I64(values) => values.len(),
             Self::F32(values) => values.len(),

@@ -78,6 +78,14 @@ pub enum DuneError {
         /// Whether it is the field that has them.
         in_field: bool,
     },
+    /// An array of a state is absent, damaged, or not this desert's.
+    #[error("array `{name}`: {problem}")]
+    Array {
+        /// Name of the array.
+        name: String,
+        /// What is wrong and what is needed.
+        problem: String,
+    },
     /// A wind schedule needs at least one wind that blows.
     #[error("the wind schedule has no wind that blows; at least one needs a share above 0")]
     NoWind,

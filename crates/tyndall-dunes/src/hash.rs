@@ -44,6 +44,11 @@ pub const fn next_word(word: u32) -> u32 {
     mix(word.wrapping_add(NEXT))
 }
 
+/// 64-bit FNV-1a of a text, the same on every system.
+pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xCBF2_9CE4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

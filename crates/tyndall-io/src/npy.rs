@@ -43,6 +43,7 @@ fn kind_of(data: &ArrayData) -> &'static str {
         ArrayData::U8(_) => "|u1",
         ArrayData::U16(_) => "<u2",
         ArrayData::U32(_) => "<u4",
+        ArrayData::I32(_) => "<i4",
         ArrayData::U64(_) => "<u8",
         ArrayData::I64(_) => "<i8",
         ArrayData::F32(_) => "<f4",
@@ -63,6 +64,7 @@ fn write_numbers(target: &mut impl Write, data: &ArrayData) -> io::Result<()> {
         ArrayData::U8(values) => target.write_all(values),
         ArrayData::U16(values) => write_each!(values),
         ArrayData::U32(values) => write_each!(values),
+        ArrayData::I32(values) => write_each!(values),
         ArrayData::U64(values) => write_each!(values),
         ArrayData::I64(values) => write_each!(values),
         ArrayData::F32(values) => write_each!(values),
@@ -142,9 +144,11 @@ fn item_bytes(kind: &str) -> Result<usize, String> {
     match kind {
         "|u1" | "|b1" | "<u1" => Ok(1),
         "<u2" => Ok(2),
-        "<u4" | "<f4" => Ok(4),
+        "<u4" | "<i4" | "<f4" => Ok(4),
         "<u8" | "<i8" | "<f8" => Ok(8),
-        _ => Err(format!("numbers of kind {kind:?} are not read; allowed are |u1, |b1, <u2, <u4, <u8, <i8, <f4, <f8")),
+        _ => Err(format!(
+            "numbers of kind {kind:?} are not read; allowed are |u1, |b1, <u2, <u4, <i4, <u8, <i8, <f4, <f8"
+        )),
     }
 }
 
@@ -159,6 +163,7 @@ fn numbers_from(header: &Header, bytes: &[u8]) -> Result<ArrayData, String> {
     Ok(match header.kind.as_str() {
         "<u2" => read_each!(U16, u16),
         "<u4" => read_each!(U32, u32),
+        "<i4" => read_each!(I32, i32),
         "<u8" => read_each!(U64, u64),
         "<i8" => read_each!(I64, i64),
         "<f4" => read_each!(F32, f32),
@@ -217,6 +222,7 @@ mod tests {
             Array::new(vec![2], ArrayData::F32(vec![0.1, f32::MIN_POSITIVE])),
             Array::new(vec![0, 5], ArrayData::F64(vec![])),
             Array::new(vec![1], ArrayData::U32(vec![7])),
+            Array::new(vec![2], ArrayData::I32(vec![-7, i32::MIN])),
         ];
         for array in arrays.into_iter().flatten() {
             assert_eq!(round_trip(&array), array, "{array:?}");

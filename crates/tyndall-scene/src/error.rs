@@ -4,6 +4,7 @@ use std::{io, path::PathBuf};
 
 use tyndall_clouds::CloudError;
 use tyndall_core::ParamError;
+use tyndall_dunes::DuneError;
 
 use crate::{Place, file, scene::MOST_CLOUD_CELLS};
 
@@ -82,8 +83,26 @@ pub enum SceneError {
     #[error(transparent)]
     Clouds(#[from] CloudError),
     /// Steps were asked of a scene in which nothing moves.
-    #[error("nothing in the scene goes on in steps; `clouds.kind` = \"automaton\" does")]
+    #[error("nothing in the scene goes on in steps; `clouds.kind` = \"automaton\" and `desert.kind` = \"dunes\" do")]
     NothingMoves,
+    /// The desert's parameters do not fit together, or a state of sand is not that of this scene.
+    #[error(transparent)]
+    Sand(#[from] DuneError),
+    /// Two grounds at one place.
+    #[error(
+        "`desert.kind` = \"dunes\" and `landscape.kind` = {landscape:?} are two grounds at one place; set one of them to \
+         \"none\""
+    )]
+    DesertAndLandscape {
+        /// The landscape's kind.
+        landscape: &'static str,
+    },
+    /// A desert before an orthographic camera.
+    #[error(
+        "camera.projection = \"orthographic\" shows no desert; set desert.kind to \"none\" or the projection to \
+         \"perspective\""
+    )]
+    OrthographicDesert,
     /// A landscape before an orthographic camera.
     #[error(
         "camera.projection = \"orthographic\" shows no landscape; set landscape.kind to \"none\" or the projection to \
@@ -211,13 +230,16 @@ impl SceneError {
             Self::CloudCells { .. } => {
                 ["cloud_grid.cells_east", "cloud_grid.cells_north", "cloud_grid.cells_up"].map(str::to_owned).to_vec()
             }
+            Self::DesertAndLandscape { .. } => ["desert.kind", "landscape.kind"].map(str::to_owned).to_vec(),
+            Self::OrthographicDesert => ["camera.projection", "desert.kind"].map(str::to_owned).to_vec(),
             Self::OrthographicLandscape => ["camera.projection", "landscape.kind"].map(str::to_owned).to_vec(),
             Self::SunPosition { .. } => vec!["sun.position".to_owned()],
-            Self::NothingMoves => vec!["clouds.kind".to_owned()],
+            Self::NothingMoves => ["clouds.kind", "desert.kind"].map(str::to_owned).to_vec(),
             Self::FormatMissing | Self::FormatUnknown { .. } => vec!["format".to_owned()],
             Self::Syntax { field, .. } => field.iter().cloned().collect(),
             Self::At { problem, .. } => problem.fields(),
             Self::Clouds(_)
+            | Self::Sand(_)
             | Self::NotText
             | Self::TooLarge { .. }
             | Self::Folder { .. }

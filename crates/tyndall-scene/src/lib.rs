@@ -3,7 +3,8 @@
 //! - [`Scene`]: the groups of parameters, reached by path (`sun.elevation_deg`), checked and hashed.
 //! - [`SceneFile`]: scene files, read with exact error positions and written with the user's comments kept.
 //! - [`params`]: camera, sun, sky, landscape, film and image; atmosphere, haze and ground come from [`tyndall_scattering::params`],
-//!   the matter of clouds from [`tyndall_clouds::params`].
+//!   the matter of clouds from [`tyndall_clouds::params`],
+//!   sand and its winds from [`tyndall_dunes`].
 //! - [`presets`]: the scenes that come with Tyndall.
 //! - [`schema`] and [`markdown_table`]: the format for editors and for readers.
 //! - [`sun`]: direction of the sun from angles or from date, time and place.
@@ -35,9 +36,9 @@ pub use file::{FORMAT, MAX_BYTES, SceneFile};
 pub use files::SceneFolder;
 pub use hash::SceneHash;
 pub use params::{
-    CameraParams, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, CloudResolution, CloudsParams,
-    ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams, MoonParams, MoonPhase, MoonPosition, Orders,
-    OrdersDetail, SkyKind, SkyMode, SkyParams, StarsParams, SunParams, SunPosition, ToneMap,
+    CameraParams, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, CloudResolution, CloudsParams, DesertKind,
+    DesertSceneParams, ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams, MoonParams, MoonPhase,
+    MoonPosition, Orders, OrdersDetail, SkyKind, SkyMode, SkyParams, StarsParams, SunParams, SunPosition, ToneMap,
 };
 pub use place::Place;
 pub use preset::{Preset, presets};
@@ -45,6 +46,10 @@ pub use scene::Scene;
 pub use simulation::SceneSimulation;
 pub use sun::SunDirection;
 pub use tyndall_clouds::params::{CloudGridParams, CloudMatterParams, CloudParams, CloudVapourParams, CloudWindParams};
+pub use tyndall_dunes::ripples::RippleParams;
+pub use tyndall_dunes::slab::{AbrasionParams, ClassicParams, DuneModel, DuneParams, VegetationParams};
+pub use tyndall_dunes::wind::WindParams;
+pub use tyndall_dunes::{DesertParams, Edges, Side};
 pub use tyndall_scattering::Atmosphere;
 pub use tyndall_scattering::haze::{HazeParams, VisibilityContrast};
 pub use tyndall_scattering::params::{AerosolInput, AerosolPhase, AirModel, AtmosphereParams, GroundParams};

@@ -8,11 +8,12 @@ use tyndall_scattering::refraction::RefractiveAir;
 use crate::files::SceneFolder;
 use crate::landscape::Landscape;
 use crate::{
-    AerosolInput, Atmosphere, AtmosphereParams, CameraParams, CameraProjection, CloudGridParams, CloudKind,
-    CloudMatterParams, CloudParams, CloudVapourParams, CloudWindParams, CloudsParams, FilmParams, GroundParams,
-    HazeParams, ImageParams, LandscapeKind, LandscapeParams, MoonParams, MoonPosition, Orders, SceneError, SceneHash,
-    SkyKind, SkyMode, SkyParams, StarsParams, SunDirection, SunParams, astronomy, astronomy::MoonState, brief::brief,
-    nearest::nearest, sun,
+    AbrasionParams, AerosolInput, Atmosphere, AtmosphereParams, CameraParams, CameraProjection, ClassicParams,
+    CloudGridParams, CloudKind, CloudMatterParams, CloudParams, CloudVapourParams, CloudWindParams, CloudsParams,
+    DesertKind, DesertParams, DesertSceneParams, DuneParams, FilmParams, GroundParams, HazeParams, ImageParams,
+    LandscapeKind, LandscapeParams, MoonParams, MoonPosition, Orders, RippleParams, SceneError, SceneHash, SkyKind,
+    SkyMode, SkyParams, StarsParams, SunDirection, SunParams, VegetationParams, WindParams, astronomy,
+    astronomy::MoonState, brief::brief, nearest::nearest, sun,
 };
 
 /// Most cells of the clouds of a scene: a frame needs some 60 bytes for each.
@@ -53,6 +54,20 @@ pub struct Scene {
     pub cloud_wind: CloudWindParams,
     /// The matter of the clouds.
     pub cloud_matter: CloudMatterParams,
+    /// Whether there is a desert.
+    pub desert: DesertSceneParams,
+    /// The sand of the desert.
+    pub dunes: DuneParams,
+    /// The rule of Onoue and Nishita, where the sand follows it.
+    pub dune_classic: ClassicParams,
+    /// The winds over the desert.
+    pub dune_wind: WindParams,
+    /// Plants that hold sand.
+    pub dune_plants: VegetationParams,
+    /// Rock that blown sand wears.
+    pub dune_rock: AbrasionParams,
+    /// The tile of ripples on the sand.
+    pub ripples: RippleParams,
     /// How the sky is computed.
     pub sky: SkyParams,
     /// Exposure and display.
@@ -64,7 +79,7 @@ pub struct Scene {
 impl Scene {
     /// The groups with their names in scene files, in the order in which they are shown.
     #[must_use]
-    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 16] {
+    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 23] {
         [
             ("camera", &self.camera),
             ("sun", &self.sun),
@@ -79,6 +94,13 @@ impl Scene {
             ("cloud_vapour", &self.cloud_vapour),
             ("cloud_wind", &self.cloud_wind),
             ("cloud_matter", &self.cloud_matter),
+            ("desert", &self.desert),
+            ("dunes", &self.dunes),
+            ("dune_classic", &self.dune_classic),
+            ("dune_wind", &self.dune_wind),
+            ("dune_plants", &self.dune_plants),
+            ("dune_rock", &self.dune_rock),
+            ("ripples", &self.ripples),
             ("sky", &self.sky),
             ("film", &self.film),
             ("image", &self.image),
@@ -87,7 +109,7 @@ impl Scene {
 
     /// [`Scene::groups`], to change them.
     #[must_use]
-    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 16] {
+    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 23] {
         [
             ("camera", &mut self.camera),
             ("sun", &mut self.sun),
@@ -102,6 +124,13 @@ impl Scene {
             ("cloud_vapour", &mut self.cloud_vapour),
             ("cloud_wind", &mut self.cloud_wind),
             ("cloud_matter", &mut self.cloud_matter),
+            ("desert", &mut self.desert),
+            ("dunes", &mut self.dunes),
+            ("dune_classic", &mut self.dune_classic),
+            ("dune_wind", &mut self.dune_wind),
+            ("dune_plants", &mut self.dune_plants),
+            ("dune_rock", &mut self.dune_rock),
+            ("ripples", &mut self.ripples),
             ("sky", &mut self.sky),
             ("film", &mut self.film),
             ("image", &mut self.image),
@@ -157,6 +186,7 @@ impl Scene {
             return Err(SceneError::VisibilityBeyondAir { visibility_km, clearest_km });
         }
         self.check_clouds()?;
+        self.check_desert()?;
         if self.camera.projection == CameraProjection::Orthographic && self.landscape.kind != LandscapeKind::None {
             return Err(SceneError::OrthographicLandscape);
         }
@@ -172,6 +202,28 @@ impl Scene {
             return Err(SceneError::CloudCells { size });
         }
         Ok(())
+    }
+
+    /// That nothing else stands where the desert lies; nothing without a desert.
+    fn check_desert(&self) -> Result<(), SceneError> {
+        if self.desert.kind == DesertKind::None {
+            return Ok(());
+        }
+        if self.landscape.kind != LandscapeKind::None {
+            return Err(SceneError::DesertAndLandscape { landscape: self.landscape.kind.name() });
+        }
+        if self.camera.projection == CameraProjection::Orthographic {
+            return Err(SceneError::OrthographicDesert);
+        }
+        Ok(())
+    }
+
+    /// The desert's simulation, all groups together; `None` without a desert.
+    #[must_use]
+    pub fn dune_params(&self) -> Option<DesertParams> {
+        let (dunes, classic, wind) = (self.dunes.clone(), self.dune_classic.clone(), self.dune_wind.clone());
+        let (plants, rock) = (self.dune_plants.clone(), self.dune_rock.clone());
+        (self.desert.kind == DesertKind::Dunes).then_some(DesertParams { dunes, classic, wind, plants, rock })
     }
 
     /// The clouds' simulation, all groups together; `None` without clouds and for those of a file.

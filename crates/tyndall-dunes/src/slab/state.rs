@@ -4,6 +4,7 @@ use super::field::DuneField;
 use super::rule::{DUNE_QUANTA_PER_CELL, MAX_HEIGHT_CELLS};
 use crate::DuneError;
 use crate::ledger::Ledger;
+use crate::simulation::StateHash;
 
 /// What steps change of a field; heights in quanta of 1/[`DUNE_QUANTA_PER_CELL`] cell, x runs fastest.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,6 +73,11 @@ impl DuneField {
         self.means = state.means;
         self.ledger = state.ledger;
         Ok(())
+    }
+
+    /// Hash of a state, as the field's own would be at it.
+    pub(crate) fn hash_of(&self, state: &DuneState) -> u64 {
+        StateHash::new(self.lattice, state.step).with_grid(&state.heights).with_grid(&state.bedrock).finish()
     }
 
     fn check_heights(&self, what: &'static str, heights: &[i32]) -> Result<(), DuneError> {

@@ -2,6 +2,7 @@
 
 mod camera;
 mod clouds;
+mod desert;
 mod film;
 mod image;
 mod landscape;
@@ -12,6 +13,7 @@ mod sun;
 
 pub use camera::{CameraParams, CameraProjection};
 pub use clouds::{CloudFileHolds, CloudKind, CloudMethod, CloudResolution, CloudsParams};
+pub use desert::{DesertKind, DesertSceneParams};
 pub use film::{ExposureMode, FilmParams, ToneMap};
 pub use image::ImageParams;
 pub use landscape::{LandscapeKind, LandscapeParams};

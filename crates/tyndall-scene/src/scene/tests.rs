@@ -45,6 +45,13 @@ fn both_lists_of_groups_have_the_same_names_in_the_same_order() {
             "cloud_vapour",
             "cloud_wind",
             "cloud_matter",
+            "desert",
+            "dunes",
+            "dune_classic",
+            "dune_wind",
+            "dune_plants",
+            "dune_rock",
+            "ripples",
             "sky",
             "film",
             "image"
@@ -186,4 +193,20 @@ fn an_orthographic_camera_before_a_landscape_is_refused_and_a_black_sky_has_no_a
     let air = &black.atmosphere;
     assert!((air.air_density + air.aerosol_optical_depth + air.ozone_du).abs() < 1e-12, "nothing that scatters");
     assert!(scene.atmosphere.air_density > 0.0, "the scene itself keeps its air");
+}
+
+#[test]
+fn a_desert_where_something_else_stands_and_before_an_orthographic_camera_is_refused() {
+    let mut scene = Scene::default();
+    assert!(scene.dune_params().is_none(), "no desert unless it is asked for");
+    scene.set_text("desert.kind", "dunes").unwrap();
+    scene.check().unwrap();
+    assert_eq!(scene.dune_params(), Some(DesertParams::default()), "all groups together");
+    scene.set_text("landscape.kind", "hills").unwrap();
+    let refused = scene.check().unwrap_err();
+    assert!(refused.to_string().contains("`landscape.kind` = \"hills\" are two grounds"), "{refused}");
+    assert_eq!(refused.field().as_deref(), Some("desert.kind"), "where to change it");
+    scene.set_text("landscape.kind", "none").unwrap();
+    scene.set_text("camera.projection", "orthographic").unwrap();
+    assert_eq!(scene.check().unwrap_err().field().as_deref(), Some("camera.projection"), "one direction of view");
 }
