@@ -371,6 +371,22 @@ pub(crate) const ALL: &[Precondition] = &[
         ],
     },
     Precondition {
+        name: "dunes on the terrain of a file, under the winds of a file",
+        prepare: |scene| {
+            dunes(scene);
+            scene.dunes.sand_cells = 0.3;
+            scene.desert.terrain_high_m = 6.0;
+            concat!(env!("CARGO_MANIFEST_DIR"), "/data/small_hills.r16").clone_into(&mut scene.desert.terrain);
+            concat!(env!("CARGO_MANIFEST_DIR"), "/data/two_winds.csv").clone_into(&mut scene.desert.wind_table);
+        },
+        parameters: &[
+            ("desert.terrain_low_m", Some(-20.0)),
+            ("desert.terrain_high_m", Some(12.0)),
+            ("desert.grain_um", Some(1500.0)),
+            ("desert.wind_sectors", Some(1.0)),
+        ],
+    },
+    Precondition {
         name: "dunes under plants",
         prepare: |scene| {
             dunes(scene);

@@ -95,3 +95,75 @@ fn states_of_other_grids_and_other_files_are_refused_with_their_name() {
     let other = simulate(&place, &["--state", "a.npz", "--steps", "1", "--set", "cloud_wind.floor_speed_m_s=9"]);
     assert!(other.succeeded().stderr.contains("warning: the state comes from other parameters"), "told, not refused");
 }
+
+/// A small desert.
+const DESERT: &str =
+    "format = 1\n[desert]\nkind = \"dunes\"\nsteps = 25\n[dunes]\nside = \"64\"\n[dune_plants]\nenabled = true\n";
+
+#[test]
+fn sand_goes_on_from_a_state_bit_for_bit_on_any_number_of_threads() {
+    let place = Place::new();
+    place.write("sand.toml", DESERT);
+    let run = |words: &[&str]| place.run(&[&["simulate", "sand.toml"], words].concat()).succeeded().stdout;
+    let whole = run(&["--steps", "300", "--threads", "1", "-o", "one.npz"]);
+    assert!(whole.starts_with("step 300 hash 0x"), "{whole}");
+    assert_eq!(run(&["--steps", "300", "--threads", "2", "-o", "two.npz"]), whole, "two threads");
+    run(&["-o", "part.npz"]);
+    assert_eq!(
+        run(&["--state", "part.npz", "--steps", "275", "-o", "rest.npz"]),
+        whole,
+        "25 steps, the scene's, and 275"
+    );
+    for file in ["two.npz", "rest.npz"] {
+        assert!(place.read(file) == place.read("one.npz"), "{file} is one.npz, byte for byte");
+    }
+    let arrays = read_npz(place.path("one.npz")).unwrap();
+    let array = |name: &str| match &arrays.iter().find(|(found, _)| found == name).expect(name).1.data() {
+        ArrayData::I32(values) => values.clone(),
+        other => panic!("{name}: {other:?}"),
+    };
+    let (height, sand, bedrock) = (array("height"), array("sand"), array("bedrock"));
+    let depth: Vec<i32> = height.iter().zip(&bedrock).map(|(height, rock)| height - rock).collect();
+    assert!(sand == depth && sand.iter().all(|depth| *depth >= 0), "the sand lies on the rock");
+    assert_eq!(sand.len(), 64 * 64, "every cell");
+}
+
+#[test]
+fn of_clouds_and_sand_the_one_is_simulated_that_is_named_or_that_the_state_belongs_to() {
+    let place = place();
+    place.write("sand.toml", DESERT);
+    let both = ["--set", "desert.kind=dunes", "--set", "dunes.side=64"];
+    let run = |words: &[&str]| simulate(&place, &[&both[..], words].concat());
+    run(&[]).refused(2, "say which is meant: clouds or desert");
+    let clouds = run(&["--of", "clouds", "--steps", "2", "-o", "sky.npz"]).succeeded().stdout;
+    let sand = run(&["--of", "desert", "--steps", "2", "-o", "sand.npz"]).succeeded().stdout;
+    assert_ne!(clouds, sand, "two simulations");
+    let more = run(&["--state", "sand.npz", "--steps", "1"]).succeeded().stdout;
+    assert!(more.starts_with("step 3 "), "the sand's state goes on: {more}");
+    run(&["--of", "clouds", "--state", "sand.npz"])
+        .refused(2, "cannot start from sand.npz: the state is one of desert");
+    run(&["--of", "smoke"]).refused(2, "\"smoke\" is none of clouds, desert");
+    simulate(&place, &["--state", "sand.npz"]).refused(2, "which clouds cannot start from");
+    place
+        .run(&["simulate", "sand.toml", "--state", "sand.npz", "--set", "dunes.side=128"])
+        .refused(2, "array `height`");
+}
+
+#[test]
+fn terrain_and_winds_of_files_shape_the_sand() {
+    let place = Place::new();
+    place.write("sand.toml", DESERT);
+    place.write("winds.csv", "direction_deg,speed_m_s\n180,12\n");
+    std::fs::write(place.path("rock.r16"), [0_u8, 0, 255, 255, 0, 0, 0, 0]).unwrap();
+    let run = |words: &[&str]| place.run(&[&["simulate", "sand.toml"], words].concat());
+    let hash = |words: &[&str]| run(words).succeeded().stdout;
+    let level = hash(&[]);
+    assert_ne!(hash(&["--set", "desert.terrain=rock.r16"]), level, "a hill");
+    assert_eq!(
+        hash(&["--set", "desert.wind_table=winds.csv"]),
+        hash(&["--set", "dune_wind.direction_deg=90"]),
+        "a south wind"
+    );
+    run(&["--set", "desert.terrain=none.png"]).refused(2, "none.png");
+    run(&["--set", "desert.wind_table=sand.toml"]).refused(2, "sand.toml: line 1, column 1: no column is called");
+}

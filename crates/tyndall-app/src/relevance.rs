@@ -27,6 +27,23 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
         }
         ("landscape", name) => landscape(scene.landscape.kind, name),
         ("desert", "kind") => None,
+        ("desert", "terrain_low_m" | "terrain_high_m")
+            if scene.desert.kind != DesertKind::None && scene.desert.terrain.is_empty() =>
+        {
+            Some("The ground is level; name a height map in Terrain.")
+        }
+        ("desert", "grain_um" | "wind_sectors")
+            if scene.desert.kind != DesertKind::None && scene.desert.wind_table.is_empty() =>
+        {
+            Some("The winds are those of dune wind; name a table in Wind table.")
+        }
+        ("dune_wind", name)
+            if scene.desert.kind != DesertKind::None
+                && name != "period_steps"
+                && !scene.desert.wind_table.is_empty() =>
+        {
+            Some("The winds come from a table; leave Wind table empty.")
+        }
         ("desert" | "dunes" | "dune_classic" | "dune_wind" | "dune_plants" | "dune_rock" | "ripples", _)
             if scene.desert.kind == DesertKind::None =>
         {
@@ -80,7 +97,9 @@ fn dunes(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
             Some("No slab comes in over an edge; set Model to slab and Edges to open.")
         }
         ("dune_classic", _) if !is_classic => Some("The sand moves in slabs; set Model of dunes to classic."),
-        ("dune_wind", "divergence_deg" | "ratio" | "period_steps") if scene.dune_wind.winds == 1 => {
+        ("dune_wind", "divergence_deg" | "ratio" | "period_steps")
+            if scene.dune_wind.winds == 1 && scene.desert.wind_table.is_empty() =>
+        {
             Some("There is one wind all the time; raise Winds.")
         }
         ("dune_plants", name) if name != "enabled" && !scene.dune_plants.enabled => {

@@ -5,6 +5,7 @@ use std::io;
 use tyndall_gpu::GpuError;
 use tyndall_io::IoError;
 use tyndall_render::RenderError;
+use tyndall_render::desert_inputs::DesertFileError;
 use tyndall_scattering::ScatteringError;
 use tyndall_scene::SceneError;
 
@@ -52,8 +53,15 @@ impl From<RenderError> for Failure {
             RenderError::Gpu(error) => Self::Gpu(error),
             RenderError::Scene(error) => Self::Scene(error),
             RenderError::Clouds(error) => Self::Scene(error.into()),
+            RenderError::DesertFile(error) => error.into(),
             other => Self::Render(other),
         }
+    }
+}
+
+impl From<DesertFileError> for Failure {
+    fn from(error: DesertFileError) -> Self {
+        Self::Usage(error.to_string())
     }
 }
 

@@ -125,8 +125,8 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
     let unit = unit_of(arguments, format, &scene)?;
     check_writable(&arguments.output)?;
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
-    let state = arguments.start.load(&scene, progress)?;
-    let state = state.as_ref();
+    let state = arguments.start.load(&scene, None, progress)?;
+    let (state, scene) = (state.as_ref(), arguments.start.advanced(&scene, state.as_ref())?);
     let mut frame = if arguments.reference {
         reference::frame(&scene, format, (arguments.paths, arguments.seed), &interrupt, progress)?
     } else {

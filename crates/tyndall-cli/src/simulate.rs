@@ -11,7 +11,8 @@ use serde_json::json;
 use tyndall_core::array::NamedArrays;
 use tyndall_io::atomic::check_writable;
 use tyndall_io::{Destination, IoError, read_npz, write_npz};
-use tyndall_scene::{Scene, SceneSimulation};
+use tyndall_render::desert_inputs::desert_inputs;
+use tyndall_scene::{DesertInputs, Scene, SceneError, SceneSimulation, SimulationKind};
 
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, ProgressFormat, Stage};
@@ -27,9 +28,11 @@ Examples:
   tyndall simulate preset:cumulus --steps 200 -o later.npz
   tyndall simulate preset:cumulus --state later.npz --steps 50 -o latest.npz
   tyndall render preset:cumulus --state latest.npz -o latest.png
+  tyndall simulate preset:barchans -o dunes.npz --of desert
 
-The state holds an array `cells` of bytes, index [x, y, z] from west, south and
-below: hum + 2 act + 4 cld. Its hash is printed on standard output with the step.";
+A state of clouds holds an array `cells` of bytes, index [x, y, z] from west, south and
+below: hum + 2 act + 4 cld; one of a desert `height`, `sand` and `bedrock`, index
+[x, y], in 1/256 of a cell. Its hash is printed on standard output with the step.";
 
 /// What `tyndall simulate` takes.
 #[derive(Clone, Debug, clap::Args)]
@@ -44,6 +47,9 @@ pub struct SimulateArguments {
     /// Steps to make; up to the moment that a picture of the scene shows unless given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
     pub steps: Option<u32>,
+    /// What to simulate where the scene has both; else the only one, or the one that --state belongs to
+    #[arg(long, value_name = "WHAT", value_parser = parse_kind)]
+    pub of: Option<SimulationKind>,
     /// Where the state comes from that it starts with.
     #[command(flatten)]
     pub start: StartArguments,
@@ -64,28 +70,57 @@ pub struct StartArguments {
 }
 
 impl StartArguments {
-    /// The arrays of the state, if one is named; a warning when it is not quite the scene's own.
+    /// The arrays of the state, if one is named; a warning when it is not quite the scene's own. `named` is what is to start
+    /// from it.
     ///
     /// # Errors
     /// When the file cannot be read or holds no state, or the scene has nothing that would go on from it.
-    pub fn load(&self, scene: &Scene, progress: &Progress) -> Result<Option<NamedArrays>, Failure> {
+    pub fn load(
+        &self,
+        scene: &Scene,
+        named: Option<SimulationKind>,
+        progress: &Progress,
+    ) -> Result<Option<NamedArrays>, Failure> {
         let Some(path) = &self.state else { return Ok(None) };
         let state = read_npz(path).map_err(|error: IoError| Failure::Usage(error.to_string()))?;
-        if !scene.continues(&state).map_err(|error| self.blame(error.into()))? {
+        let kind = scene.simulated(named, Some(&state)).map_err(|error| self.blame(error.into()))?;
+        if !scene.continues(kind, &state).map_err(|error| self.blame(error.into()))? {
             progress.warn("the state comes from other parameters; from here on those of the scene count");
         }
         Ok(Some(state))
     }
 
+    /// The scene whose picture a desert's state belongs to: one that is further than `desert.steps` is shown as it is.
+    ///
+    /// # Errors
+    /// When the state does not say its step, or it is beyond what a scene takes.
+    pub fn advanced(&self, scene: &Scene, state: Option<&NamedArrays>) -> Result<Scene, Failure> {
+        let mut scene = scene.clone();
+        let of_desert = state.filter(|state| SimulationKind::of_state(state) == Some(SimulationKind::Desert));
+        if let Some(state) = of_desert {
+            let step = tyndall_scene::desert_state_step(state).map_err(SceneError::Sand);
+            let step = step.map_err(|error| self.blame(error.into()))?;
+            scene.set("desert.steps", scene.desert.steps.max(step).into())?;
+        }
+        Ok(scene)
+    }
+
     /// `failure` with the name of the state, when that is what was refused.
     pub(crate) fn blame(&self, failure: Failure) -> Failure {
         match (&self.state, failure) {
-            (Some(path), Failure::Scene(error @ tyndall_scene::SceneError::Clouds(_))) => {
-                Failure::Usage(format!("cannot start from {}: {error}", path.display()))
-            }
+            (
+                Some(path),
+                Failure::Scene(error @ (SceneError::Clouds(_) | SceneError::Sand(_) | SceneError::StateOfOther { .. })),
+            ) => Failure::Usage(format!("cannot start from {}: {error}", path.display())),
             (_, other) => other,
         }
     }
+}
+
+/// What goes on in steps, by its name.
+fn parse_kind(name: &str) -> Result<SimulationKind, String> {
+    let found = SimulationKind::ALL.iter().find(|kind| kind.name() == name).copied();
+    found.ok_or_else(|| format!("{name:?} is none of {}", SimulationKind::NAMES.join(", ")))
 }
 
 /// Simulates.
@@ -107,11 +142,14 @@ fn simulate(arguments: &SimulateArguments, progress: &mut Progress) -> Result<()
         check_place(path)?;
     }
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
-    let state = arguments.start.load(&scene, progress)?;
+    let state = arguments.start.load(&scene, arguments.of, progress)?;
+    let kind = scene.simulated(arguments.of, state.as_ref())?;
+    let inputs = if kind == SimulationKind::Desert { desert_inputs(&scene)? } else { DesertInputs::default() };
     let pool = ThreadPoolBuilder::new().num_threads(usize::from(arguments.threads)).build();
     let pool = pool.map_err(|error| Failure::Usage(format!("cannot start {} threads: {error}", arguments.threads)))?;
     pool.install(|| {
-        let mut simulation = scene.simulation(state.as_ref()).map_err(|error| arguments.start.blame(error.into()))?;
+        let simulation = scene.simulation(kind, &inputs, state.as_ref());
+        let mut simulation = simulation.map_err(|error| arguments.start.blame(error.into()))?;
         let steps = arguments.steps.unwrap_or_else(|| simulation.steps_to_picture());
         let began = Instant::now();
         make_steps(simulation.as_mut(), steps, &interrupt, progress)?;

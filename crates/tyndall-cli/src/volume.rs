@@ -11,6 +11,7 @@ use tyndall_core::array::{Array, ArrayData, NamedArrays};
 use tyndall_io::atomic::{check_writable, write_atomically};
 use tyndall_io::{Destination, IoError, VdbGrid, VdbOptions, VdbPacking, write_npz, write_vdb};
 use tyndall_render::clouds::source::{CloudSource, CloudSourceRequest};
+use tyndall_scene::SimulationKind;
 
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, ProgressFormat, Stage};
@@ -85,7 +86,7 @@ fn export(arguments: &VolumeArguments, progress: &mut Progress) -> Result<(), Fa
     check_writable(&arguments.output)?;
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
     let mut source = CloudSource::default();
-    source.start_from(arguments.start.load(&scene, progress)?);
+    source.start_from(arguments.start.load(&scene, Some(SimulationKind::Clouds), progress)?);
     progress.share("simulating", 0.0)?;
     let is_stopped = || interrupt.check().is_err();
     let matter = loop {

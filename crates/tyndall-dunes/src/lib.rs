@@ -4,7 +4,7 @@
 //! - [`measure`]: wavelength, slopes, crests, separate heaps.
 //! - [`slab`]: fields of dunes from slabs of sand; also the rule of Onoue and Nishita 2000.
 //! - [`wind`], [`wind_rose`], [`crest_theory`]: winds that take turns, also from measurements, and the crests to expect.
-//! - [`DesertParams`], [`DesertSimulation`]: all of that put together as a scene has it, with states for files.
+//! - [`DesertParams`], [`DesertSimulation`], [`DesertSource`]: all of that put together as a scene has it, with states for files.
 //! - [`presets`]: deserts to start from.
 //! - [`shadow`], [`horizon`]: where the wind and where the sun does not reach.
 //! - [`brush`], [`terrain`], [`export`]: sand by hand, bedrock from outside, maps and tiles for other programs.
@@ -44,7 +44,7 @@ pub mod terrain;
 pub mod wind;
 pub mod wind_rose;
 
-pub use desert::{DesertParams, DesertSimulation, state_step};
+pub use desert::{DesertInputs, DesertParams, DesertSimulation, DesertSource, state_step};
 pub use edges::Edges;
 pub use error::DuneError;
 pub use lattice::Lattice;

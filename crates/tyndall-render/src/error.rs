@@ -28,6 +28,9 @@ pub enum RenderError {
     /// Of the clouds' file.
     #[error(transparent)]
     CloudFile(#[from] crate::clouds::source::CloudFileError),
+    /// Of the files of the desert.
+    #[error(transparent)]
+    DesertFile(#[from] crate::desert_inputs::DesertFileError),
     /// The target was made for another renderer configuration.
     #[error("the frame target has {target:?}, the renderer draws {renderer:?}")]
     Configuration {

@@ -97,12 +97,39 @@ pub enum SceneError {
         /// The landscape's kind.
         landscape: &'static str,
     },
+    /// A height map whose lowest place is its highest.
+    #[error("`desert.terrain_low_m` = {low_m} m is above `desert.terrain_high_m` = {high_m} m; lower it")]
+    TerrainRange {
+        /// Height of the darkest sample.
+        low_m: f64,
+        /// Height of the brightest sample.
+        high_m: f64,
+    },
     /// A desert before an orthographic camera.
     #[error(
         "camera.projection = \"orthographic\" shows no desert; set desert.kind to \"none\" or the projection to \
          \"perspective\""
     )]
     OrthographicDesert,
+    /// Several things go on in steps, and it is not said which is meant.
+    #[error("both clouds and sand of the scene go on in steps; say which is meant: clouds or desert")]
+    SeveralMove,
+    /// A simulation was named that the scene does not have.
+    #[error("the scene has no {named} that goes on in steps, only {present}")]
+    NotSimulated {
+        /// What was named.
+        named: &'static str,
+        /// What there is.
+        present: &'static str,
+    },
+    /// A state of something else.
+    #[error("the state is one of {state}, which {scene} cannot start from")]
+    StateOfOther {
+        /// What the state is one of.
+        state: &'static str,
+        /// What was to start from it.
+        scene: &'static str,
+    },
     /// A landscape before an orthographic camera.
     #[error(
         "camera.projection = \"orthographic\" shows no landscape; set landscape.kind to \"none\" or the projection to \
@@ -231,10 +258,13 @@ impl SceneError {
                 ["cloud_grid.cells_east", "cloud_grid.cells_north", "cloud_grid.cells_up"].map(str::to_owned).to_vec()
             }
             Self::DesertAndLandscape { .. } => ["desert.kind", "landscape.kind"].map(str::to_owned).to_vec(),
+            Self::TerrainRange { .. } => ["desert.terrain_low_m", "desert.terrain_high_m"].map(str::to_owned).to_vec(),
             Self::OrthographicDesert => ["camera.projection", "desert.kind"].map(str::to_owned).to_vec(),
             Self::OrthographicLandscape => ["camera.projection", "landscape.kind"].map(str::to_owned).to_vec(),
             Self::SunPosition { .. } => vec!["sun.position".to_owned()],
-            Self::NothingMoves => ["clouds.kind", "desert.kind"].map(str::to_owned).to_vec(),
+            Self::NothingMoves | Self::SeveralMove | Self::NotSimulated { .. } | Self::StateOfOther { .. } => {
+                ["clouds.kind", "desert.kind"].map(str::to_owned).to_vec()
+            }
             Self::FormatMissing | Self::FormatUnknown { .. } => vec!["format".to_owned()],
             Self::Syntax { field, .. } => field.iter().cloned().collect(),
             Self::At { problem, .. } => problem.fields(),

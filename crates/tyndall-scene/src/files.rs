@@ -36,17 +36,30 @@ impl Scene {
         self.folder.join(&self.clouds.file)
     }
 
+    /// Where the height map under the desert's sand is; `None` without one.
+    #[must_use]
+    pub fn terrain_file(&self) -> Option<PathBuf> {
+        (!self.desert.terrain.is_empty()).then(|| self.folder.join(&self.desert.terrain))
+    }
+
+    /// Where the table of the desert's winds is; `None` without one.
+    #[must_use]
+    pub fn wind_table_file(&self) -> Option<PathBuf> {
+        (!self.desert.wind_table.is_empty()).then(|| self.folder.join(&self.desert.wind_table))
+    }
+
     /// Makes another folder the one that relative paths start from: they become relative to it where the files lie within,
     /// and absolute where not.
     pub fn move_to(&mut self, folder: &Path) {
         if is_same(&self.folder, folder) {
             return;
         }
-        let file = Path::new(&self.clouds.file);
-        if !self.clouds.file.is_empty() && file.is_relative() {
-            let whole = absolute(&self.cloud_file());
-            let within = whole.strip_prefix(absolute(folder)).map(Path::to_owned);
-            self.clouds.file = within.unwrap_or(whole).display().to_string();
+        for name in [&mut self.clouds.file, &mut self.desert.terrain, &mut self.desert.wind_table] {
+            if !name.is_empty() && Path::new(name).is_relative() {
+                let whole = absolute(&self.folder.join(&*name));
+                let within = whole.strip_prefix(absolute(folder)).map(Path::to_owned);
+                *name = within.unwrap_or(whole).display().to_string();
+            }
         }
         self.folder = folder.to_owned().into();
     }
@@ -73,7 +86,11 @@ mod tests {
         let [here, inside] = ["here", "here/inside"].map(|name| folder.path().join(name));
         std::fs::create_dir_all(&inside).unwrap();
         let path = here.join("scene.toml");
-        std::fs::write(&path, "format = 1\n[clouds]\nfile = \"inside/cloud.npz\" # mine\n").unwrap();
+        std::fs::write(
+            &path,
+            "format = 1\n[clouds]\nfile = \"inside/cloud.npz\" # mine\n[desert]\nterrain = \"rock.r16\"\n",
+        )
+        .unwrap();
         let file = SceneFile::load(&path).unwrap();
         assert_eq!(file.scene.cloud_file(), inside.join("cloud.npz"), "relative to the scene's file");
         file.save(&path).unwrap();
@@ -82,6 +99,7 @@ mod tests {
             file.save(&other).unwrap();
             let moved = SceneFile::load(&other).unwrap().scene;
             assert_eq!(moved.cloud_file(), inside.join("cloud.npz"), "{}", other.display());
+            assert_eq!(moved.terrain_file(), Some(here.join("rock.r16")), "{}", other.display());
         }
         let text = std::fs::read_to_string(inside.join("b.toml")).unwrap();
         assert!(text.contains("file = \"cloud.npz\" # mine"), "within the new folder a path is short: {text}");

@@ -43,13 +43,13 @@ pub use params::{
 pub use place::Place;
 pub use preset::{Preset, presets};
 pub use scene::Scene;
-pub use simulation::SceneSimulation;
+pub use simulation::{SceneSimulation, SimulationKind};
 pub use sun::SunDirection;
 pub use tyndall_clouds::params::{CloudGridParams, CloudMatterParams, CloudParams, CloudVapourParams, CloudWindParams};
 pub use tyndall_dunes::ripples::RippleParams;
 pub use tyndall_dunes::slab::{AbrasionParams, ClassicParams, DuneModel, DuneParams, VegetationParams};
 pub use tyndall_dunes::wind::WindParams;
-pub use tyndall_dunes::{DesertParams, Edges, Side};
+pub use tyndall_dunes::{DesertInputs, DesertParams, Edges, Side, state_step as desert_state_step};
 pub use tyndall_scattering::Atmosphere;
 pub use tyndall_scattering::haze::{HazeParams, VisibilityContrast};
 pub use tyndall_scattering::params::{AerosolInput, AerosolPhase, AirModel, AtmosphereParams, GroundParams};

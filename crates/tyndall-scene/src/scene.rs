@@ -209,6 +209,10 @@ impl Scene {
         if self.desert.kind == DesertKind::None {
             return Ok(());
         }
+        let DesertSceneParams { terrain_low_m: low_m, terrain_high_m: high_m, .. } = self.desert;
+        if !self.desert.terrain.is_empty() && low_m > high_m {
+            return Err(SceneError::TerrainRange { low_m, high_m });
+        }
         if self.landscape.kind != LandscapeKind::None {
             return Err(SceneError::DesertAndLandscape { landscape: self.landscape.kind.name() });
         }

@@ -47,13 +47,14 @@ pub(super) fn run(
     format: OutputFormat,
     progress: &mut Progress,
 ) -> Result<(), Failure> {
+    let state = arguments.start.load(scene, None, progress)?;
+    let scene = &arguments.start.advanced(scene, state.as_ref())?;
     let shots: Result<Vec<Shot>, Failure> = range.frames().map(|number| shot(arguments, scene, number)).collect();
     let shots = shots?;
     if let Some(first) = shots.first() {
         check_writable(&first.path)?;
     }
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
-    let state = arguments.start.load(scene, progress)?;
     let count = shots.len();
     let (options, state) = (arguments.device.options(), state.as_ref());
     let drawn = Sequence { arguments, options, format, state, interrupt: &interrupt, progress }.draw(&shots)?;

@@ -1,29 +1,45 @@
 //! The field of a scene: from its parameters to its steps, and what is asked of it.
 
 use super::ages::Ages;
+use super::inputs::DesertInputs;
 use super::params::DesertParams;
 use crate::DuneError;
 use crate::direction::{DIRECTION_ONE, Direction};
 use crate::export::DuneMaps;
 use crate::simulation::SandSimulation as _;
 use crate::slab::{DUNE_QUANTA_PER_CELL, DuneField};
-use crate::wind::WindSchedule;
 
 /// The desert of a scene.
 #[derive(Clone, Debug)]
 pub struct DesertSimulation {
     params: DesertParams,
+    inputs: DesertInputs,
     field: DuneField,
     ages: Option<Ages>,
 }
 
 impl DesertSimulation {
-    /// The desert before its first step, on level ground.
+    /// The desert before its first step.
     ///
     /// # Errors
-    /// [`DuneError::Parameter`] when a parameter is outside its range.
-    pub fn cold(params: &DesertParams) -> Result<Self, DuneError> {
-        Ok(Self { params: params.clone(), field: params.field()?, ages: None })
+    /// [`DuneError::Parameter`] when a parameter is outside its range, [`DuneError::Height`] when the terrain is too high.
+    pub fn cold(params: &DesertParams, inputs: &DesertInputs) -> Result<Self, DuneError> {
+        let mut field = params.field()?;
+        if let Some(terrain) = &inputs.terrain {
+            field.set_bedrock_cells(&terrain.bedrock_cells(field.lattice(), params.dunes.cell_m)?)?;
+            // Plants remember the height they stand at, and the ground has moved.
+            field.set_vegetation(&params.plants)?;
+        }
+        if let Some(winds) = &inputs.winds {
+            field.set_winds(winds.clone());
+        }
+        Ok(Self { params: params.clone(), inputs: inputs.clone(), field, ages: None })
+    }
+
+    /// What it took from files.
+    #[must_use]
+    pub fn inputs(&self) -> &DesertInputs {
+        &self.inputs
     }
 
     /// The parameters that it was made from.
@@ -42,11 +58,6 @@ impl DesertSimulation {
     /// steps that are made behind their back.
     pub fn field_mut(&mut self) -> &mut DuneField {
         &mut self.field
-    }
-
-    /// Takes winds in place of those of the parameters from the next step on.
-    pub fn set_winds(&mut self, winds: WindSchedule) {
-        self.field.set_winds(winds);
     }
 
     /// Makes steps.

@@ -7,7 +7,7 @@
 
 use tyndall_core::array::{Array, ArrayData, NamedArrays};
 
-use super::{DesertParams, DesertSimulation};
+use super::{DesertInputs, DesertParams, DesertSimulation};
 use crate::DuneError;
 use crate::ledger::Ledger;
 use crate::slab::{DUNE_QUANTA_PER_CELL, DuneState, PlantState};
@@ -53,8 +53,8 @@ impl DesertSimulation {
     ///
     /// # Errors
     /// As for [`DesertSimulation::cold`] and [`DesertSimulation::restore`].
-    pub fn from_state(params: &DesertParams, arrays: &NamedArrays) -> Result<Self, DuneError> {
-        let mut simulation = Self::cold(params)?;
+    pub fn from_state(params: &DesertParams, inputs: &DesertInputs, arrays: &NamedArrays) -> Result<Self, DuneError> {
+        let mut simulation = Self::cold(params, inputs)?;
         simulation.restore(arrays)?;
         Ok(simulation)
     }
@@ -177,23 +177,23 @@ mod tests {
 
     #[test]
     fn a_desert_goes_on_from_a_state_with_the_same_bits_and_ages() {
-        let mut whole = DesertSimulation::cold(&params()).unwrap();
+        let mut whole = DesertSimulation::cold(&params(), &DesertInputs::default()).unwrap();
         whole.keep_ages();
         whole.advance(37);
-        let mut rest = DesertSimulation::from_state(&params(), &whole.state()).unwrap();
+        let mut rest = DesertSimulation::from_state(&params(), &DesertInputs::default(), &whole.state()).unwrap();
         assert_eq!(whole.state(), rest.state(), "all arrays");
         for desert in [&mut whole, &mut rest] {
             desert.advance(41);
         }
         assert_eq!((whole.state(), whole.hash(), rest.step_count()), (rest.state(), rest.hash(), 78), "later too");
-        let mut unwatched = DesertSimulation::cold(&params()).unwrap();
+        let mut unwatched = DesertSimulation::cold(&params(), &DesertInputs::default()).unwrap();
         unwatched.advance(78);
         assert_eq!(unwatched.hash(), whole.hash(), "ages change no bit");
     }
 
     #[test]
     fn ages_count_the_steps_since_a_cell_moved() {
-        let mut desert = DesertSimulation::cold(&params()).unwrap();
+        let mut desert = DesertSimulation::cold(&params(), &DesertInputs::default()).unwrap();
         assert_eq!(desert.age_steps(), None, "not kept");
         desert.keep_ages();
         desert.advance(5);
@@ -210,17 +210,20 @@ mod tests {
 
     #[test]
     fn a_state_knows_whether_its_steps_followed_from_the_same_parameters() {
-        let state = DesertSimulation::cold(&params()).unwrap().state();
+        let state = DesertSimulation::cold(&params(), &DesertInputs::default()).unwrap().state();
         assert_eq!(DesertSimulation::continues(&params(), &state), Ok(true), "the same");
         let mut windy = params();
         windy.wind.direction_deg += 1.0;
         assert_eq!(DesertSimulation::continues(&windy, &state), Ok(false), "another wind");
-        assert!(DesertSimulation::from_state(&windy, &state).is_ok(), "which may take it up all the same");
+        assert!(
+            DesertSimulation::from_state(&windy, &DesertInputs::default(), &state).is_ok(),
+            "which may take it up all the same"
+        );
     }
 
     #[test]
     fn damaged_and_foreign_states_are_refused_with_the_arrays_name() {
-        let mut desert = DesertSimulation::cold(&params()).unwrap();
+        let mut desert = DesertSimulation::cold(&params(), &DesertInputs::default()).unwrap();
         let before = desert.state();
         let change = |name: &str, array: Array| {
             let mut arrays = before.clone();
