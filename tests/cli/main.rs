@@ -2,6 +2,7 @@
 
 mod blender;
 mod frames;
+mod heightmap;
 mod light;
 mod outside;
 mod pictures;

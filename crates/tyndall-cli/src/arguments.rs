@@ -6,6 +6,7 @@ use crate::Exit;
 use crate::cubemap::CubemapArguments;
 use crate::doctor::DoctorArguments;
 use crate::hdri::HdriArguments;
+use crate::heightmap::HeightmapArguments;
 use crate::params::ParamsArguments;
 use crate::presets::PresetsArguments;
 use crate::probe::ProbeArguments;
@@ -24,6 +25,7 @@ Examples:
   tyndall hdri preset:noon -o sky.exr --sun lamp
   tyndall simulate preset:cumulus --steps 200 -o state.npz
   tyndall volume preset:cumulus -o cloud.vdb
+  tyndall heightmap dunes.toml -o dunes.png --maps normal,sand
   tyndall validate sky preset:noon
   tyndall params sun
   tyndall doctor";
@@ -56,6 +58,8 @@ pub enum Subcommand {
     Simulate(SimulateArguments),
     /// Write the clouds of a scene as a VDB or NPZ grid, or as a list of metaballs
     Volume(VolumeArguments),
+    /// Write the sand of a scene as terrain: height map, normals, ripples, masks, tiles, or a mesh
+    Heightmap(HeightmapArguments),
     /// Tell how far the tables are from Monte-Carlo, in per cent, on your own scene
     Validate(ValidateArguments),
     /// List the parameters of scenes: default, unit, range, what each does

@@ -1,6 +1,6 @@
 //! The command line program `tyndall`: renders scene files without a window.
 //!
-//! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`probe`], [`simulate`], [`volume`], [`validate`],
+//! One module per subcommand: [`render`], [`hdri`], [`cubemap`], [`probe`], [`simulate`], [`volume`], [`heightmap`], [`validate`],
 //! [`params`], [`schema`], [`presets`], [`doctor`]. What they share: [`exit`] (the
 //! codes that scripts and render farms go by), [`failure`] (which error ends with which code, and the one sentence that the
 //! user reads), [`scene_arguments`] (scene and device), [`values`] (what options take), [`interrupt`] (Ctrl-C and termination) and [`progress`].
@@ -15,6 +15,7 @@ pub mod doctor;
 pub mod exit;
 pub mod failure;
 pub mod hdri;
+pub mod heightmap;
 pub mod interrupt;
 pub mod light;
 mod log;
@@ -69,6 +70,7 @@ fn dispatch(subcommand: &Subcommand) -> Result<(), Failure> {
         Subcommand::Probe(arguments) => probe::run(arguments),
         Subcommand::Simulate(arguments) => simulate::run(arguments),
         Subcommand::Volume(arguments) => volume::run(arguments),
+        Subcommand::Heightmap(arguments) => heightmap::run(arguments),
         Subcommand::Validate(arguments) => validate::run(arguments),
         Subcommand::Params(arguments) => params::run(arguments),
         Subcommand::Schema => schema::run(),

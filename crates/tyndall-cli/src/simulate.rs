@@ -28,7 +28,7 @@ Examples:
   tyndall simulate preset:cumulus --steps 200 -o later.npz
   tyndall simulate preset:cumulus --state later.npz --steps 50 -o latest.npz
   tyndall render preset:cumulus --state latest.npz -o latest.png
-  tyndall simulate preset:barchans -o dunes.npz --of desert
+  tyndall simulate dunes.toml --steps 4000 -o dunes.npz --of desert
 
 A state of clouds holds an array `cells` of bytes, index [x, y, z] from west, south and
 below: hum + 2 act + 4 cld; one of a desert `height`, `sand` and `bedrock`, index

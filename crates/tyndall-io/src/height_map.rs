@@ -1,7 +1,7 @@
-//! Height maps: PNG with 16 bits, R16 and R32, as terrain tools and game engines read them.
+//! Height maps: PNG with 16 bits, EXR, R16 and R32, as terrain tools and game engines read them.
 //!
 //! PNG16 and R16 spread the range of heights over 0 to 65535, so a height comes back within half of 1/65535 of the range;
-//! R32 holds metres as 32-bit floats. R16 and R32 are bare little-endian rows. In files the first row is the northern
+//! EXR and R32 hold metres as 32-bit floats. R16 and R32 are bare little-endian rows. In files the first row is the northern
 //! one. PNG carries range and scale as text; the others need them told, see [`HeightMap::description_json`].
 
 use std::fs::File;
@@ -10,7 +10,7 @@ use std::path::Path;
 
 use crate::atomic::write_atomically;
 use crate::picture::{check_length, check_size};
-use crate::{Destination, IoError};
+use crate::{Destination, IoError, exr_height};
 
 /// Text chunks of a PNG height map.
 const LOWEST_KEYWORD: &str = "tyndall/lowestM";
@@ -35,6 +35,8 @@ pub struct HeightMap {
 pub enum HeightFormat {
     /// PNG, grey, 16 bits.
     Png16,
+    /// `OpenEXR`, one channel of 32-bit floats, metres.
+    Exr,
     /// Bare 16-bit numbers.
     R16,
     /// Bare 32-bit floats, metres.
@@ -45,14 +47,15 @@ impl HeightFormat {
     /// The format that a file's ending names.
     ///
     /// # Errors
-    /// [`IoError::Format`] for any other ending than png, r16 and r32.
+    /// [`IoError::Format`] for any other ending than png, exr, r16 and r32.
     pub fn of(path: &Path) -> Result<Self, IoError> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
         match ending.as_str() {
             "png" => Ok(Self::Png16),
+            "exr" => Ok(Self::Exr),
             "r16" => Ok(Self::R16),
             "r32" => Ok(Self::R32),
-            _ => Err(format_error(path, format!("`.{ending}` is no height map; .png, .r16 and .r32 are"))),
+            _ => Err(format_error(path, format!("`.{ending}` is no height map; .png, .exr, .r16 and .r32 are"))),
         }
     }
 }
@@ -76,7 +79,7 @@ impl HeightMap {
         )
     }
 
-    fn check(&self, path: &Path) -> Result<(), IoError> {
+    pub(crate) fn check(&self, path: &Path) -> Result<(), IoError> {
         check_length("heights_m", self.size_px, self.heights_m.len())?;
         let Some(index) = self.heights_m.iter().position(|height| !height.is_finite()) else { return Ok(()) };
         let width = self.size_px[0] as usize;
@@ -111,9 +114,28 @@ pub fn write_height_map<'a>(
     map: &HeightMap,
     format: HeightFormat,
 ) -> Result<(), IoError> {
+    write_height_map_in(destination, map, format, map.range_m())
+}
+
+/// [`write_height_map`] with another range (m) for the 16-bit formats than the map's own: that of all tiles of a terrain, so
+/// that equal heights are equal numbers in each of them.
+///
+/// # Errors
+/// As [`write_height_map`], and [`IoError::Format`] when a height is outside the range.
+pub fn write_height_map_in<'a>(
+    destination: impl Into<Destination<'a>>,
+    map: &HeightMap,
+    format: HeightFormat,
+    range_m: [f32; 2],
+) -> Result<(), IoError> {
     let destination = destination.into();
     map.check(destination.path)?;
-    let [low, high] = map.range_m().map(f64::from);
+    let (own, [lowest, highest]) = (map.range_m(), range_m);
+    if own[0] < lowest || own[1] > highest {
+        let problem = format!("heights from {} to {} m do not fit into {lowest} to {highest} m", own[0], own[1]);
+        return Err(format_error(destination.path, problem));
+    }
+    let [low, high] = range_m.map(f64::from);
     let scale = if high > low { FULL / (high - low) } else { 0.0 };
     let sample = |height: &f32| to_u16((f64::from(*height) - low) * scale);
     write_atomically(destination, |file| match format {
@@ -132,6 +154,7 @@ pub fn write_height_map<'a>(
             pixels.finish()?;
             Ok(writer.finish()?)
         }
+        HeightFormat::Exr => exr_height::write(file, map),
         HeightFormat::R16 => map.rows().try_for_each(|row| {
             file.write_all(&row.iter().flat_map(|height| sample(height).to_le_bytes()).collect::<Vec<_>>())
         }),
@@ -144,7 +167,7 @@ pub fn write_height_map<'a>(
 /// Scale of a height map whose file does not tell it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeightScale {
-    /// Heights of the samples 0 and 65535 (m); of no account for R32.
+    /// Heights of the samples 0 and 65535 (m); of no account for EXR and R32.
     pub range_m: [f32; 2],
     /// Distance of two samples (m).
     pub pixel_m: f64,
@@ -158,6 +181,11 @@ pub fn read_height_map(path: impl AsRef<Path>, scale: HeightScale) -> Result<Hei
     let path = path.as_ref();
     match HeightFormat::of(path)? {
         HeightFormat::Png16 => read_png(path, scale),
+        HeightFormat::Exr => {
+            let map = exr_height::read(path, scale.pixel_m)?;
+            map.check(path).map_err(|_not_finite| not_finite(path))?;
+            Ok(map)
+        }
         HeightFormat::R16 => {
             read_bare(path, scale.pixel_m, |bytes: [u8; 2]| from_u16(u16::from_le_bytes(bytes), scale.range_m))
         }
@@ -177,8 +205,12 @@ fn read_bare<const N: usize>(path: &Path, pixel_m: f64, sample: impl Fn([u8; N])
     check_size([side_px; 2])?;
     let heights_m = samples.0.chunks_exact(side).rev().flatten().map(|bytes| sample(*bytes)).collect::<Vec<_>>();
     let map = HeightMap { size_px: [side_px; 2], pixel_m, heights_m };
-    map.check(path).map_err(|_not_finite| format_error(path, "it has heights that are no numbers".to_owned()))?;
+    map.check(path).map_err(|_not_finite| not_finite(path))?;
     Ok(map)
+}
+
+fn not_finite(path: &Path) -> IoError {
+    format_error(path, "it has heights that are no numbers".to_owned())
 }
 
 fn read_png(path: &Path, mut scale: HeightScale) -> Result<HeightMap, IoError> {
@@ -239,6 +271,7 @@ impl From<HeightFormat> for &'static str {
     fn from(format: HeightFormat) -> Self {
         match format {
             HeightFormat::Png16 => "png",
+            HeightFormat::Exr => "exr",
             HeightFormat::R16 => "r16",
             HeightFormat::R32 => "r32",
         }
@@ -261,7 +294,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let map = dunes();
         let [low, high] = map.range_m();
-        for format in [HeightFormat::Png16, HeightFormat::R16, HeightFormat::R32] {
+        for format in [HeightFormat::Png16, HeightFormat::Exr, HeightFormat::R16, HeightFormat::R32] {
             let path = folder.path().join("map").with_extension(<&str>::from(format));
             write_height_map(path.as_path(), &map, format).unwrap();
             let scale = if format == HeightFormat::Png16 {
@@ -271,10 +304,25 @@ mod tests {
             };
             let back = read_height_map(&path, scale).unwrap();
             assert_eq!((back.size_px, back.pixel_m.to_bits()), (map.size_px, map.pixel_m.to_bits()), "{format:?}");
-            let allowed = if format == HeightFormat::R32 { 0.0 } else { (high - low) / 65535.0 };
+            let allowed =
+                if matches!(format, HeightFormat::R32 | HeightFormat::Exr) { 0.0 } else { (high - low) / 65535.0 };
             let worst = back.heights_m.iter().zip(&map.heights_m).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
             assert!(worst <= allowed, "{format:?}: off by {worst} m of {allowed}");
         }
+    }
+
+    #[test]
+    fn equal_heights_are_equal_numbers_in_tiles_of_one_range() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, heights_m: Vec<f32>| {
+            let map = HeightMap { size_px: [2, 1], pixel_m: 1.0, heights_m };
+            let path = folder.path().join(name);
+            write_height_map_in(&path, &map, HeightFormat::R16, [0.0, 10.0]).map(|()| std::fs::read(&path).unwrap())
+        };
+        let (left, right) = (write("a.r16", vec![1.0, 2.5]).unwrap(), write("b.r16", vec![2.5, 9.0]).unwrap());
+        assert_eq!(left[2..], right[..2], "the shared border");
+        let text = write("c.r16", vec![0.0, 11.0]).unwrap_err().to_string();
+        assert!(text.contains("0 to 11 m do not fit into 0 to 10 m"), "{text}");
     }
 
     #[test]
@@ -298,7 +346,7 @@ mod tests {
         assert!(message("a.r16", &[0; 10]).ends_with("10 bytes are no square of 2-byte samples"), "not square");
         assert!(message("a.r32", &f32::NAN.to_le_bytes()).ends_with("it has heights that are no numbers"), "NaN");
         assert!(message("a.png", b"text").contains("this is no PNG"), "no PNG");
-        assert!(message("a.tif", b"").ends_with("`.tif` is no height map; .png, .r16 and .r32 are"), "ending");
+        assert!(message("a.tif", b"").ends_with("`.tif` is no height map; .png, .exr, .r16 and .r32 are"), "ending");
         let mut map = dunes();
         map.heights_m[33] = f32::INFINITY;
         let path = folder.path().join("b.png");

@@ -14,8 +14,8 @@ pub(super) struct Ages {
 
 impl Ages {
     /// Of a bed that has not moved so far.
-    pub(super) fn new(heights: &[i32]) -> Self {
-        Self { before: heights.to_vec(), moved_at: vec![0; heights.len()] }
+    pub(super) fn new(heights: &[i32], step: u32) -> Self {
+        Self { before: heights.to_vec(), moved_at: vec![step; heights.len()] }
     }
 
     /// Of a bed with a past.

@@ -72,7 +72,7 @@ impl DesertSimulation {
     /// Notes from here on when each cell moves last. Steps become a little slower and make the same bits.
     pub fn keep_ages(&mut self) {
         if self.ages.is_none() {
-            self.ages = Some(Ages::new(self.field.heights()));
+            self.ages = Some(Ages::new(self.field.heights(), self.field.steps_done()));
         }
     }
 
