@@ -3,6 +3,7 @@
 
 mod aerial;
 mod background;
+mod cloud_air;
 mod cloud_files;
 mod cloud_pictures;
 mod cloud_shadows;

@@ -63,7 +63,7 @@ pub struct RenderArguments {
     /// Size of the picture in pixels, in place of the scene's
     #[arg(long, value_name = "WxH", value_parser = parse_size_px)]
     pub size: Option<[u32; 2]>,
-    /// Compute sky and ground by Monte-Carlo on the CPU, without tables and GPU: slow, for comparison
+    /// Compute sky, ground and clouds by Monte-Carlo on the CPU, without tables and GPU: slow, for comparison
     #[arg(long)]
     pub reference: bool,
     /// Random walks a pixel of a reference picture; four times as many halve the noise

@@ -12,7 +12,7 @@ mod single;
 mod vector;
 
 pub use medium::{Medium, ball_medium};
-pub use monte_carlo::{Light, PathResult, PathSettings, path_radiance};
+pub use monte_carlo::{Light, PathExit, PathResult, PathSample, PathSettings, path_radiance, path_sample};
 pub use phase::TabulatedPhase;
 pub use picture::{PathPicture, Ray, path_picture};
 pub use single::single_scattering;

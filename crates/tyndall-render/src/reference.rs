@@ -1,6 +1,7 @@
-//! A scene's sky and ground by Monte-Carlo, pixel by pixel on the CPU: what the tables' picture should look like.
+//! A scene's sky, ground and clouds by Monte-Carlo, pixel by pixel on the CPU: what the tables' picture should look like.
 
 use glam::{DVec2, UVec2};
+use rayon::prelude::*;
 use tyndall_core::spectrum::rec709_from_spectrum;
 use tyndall_scattering::geometry::{Ray, distance_to_ground};
 use tyndall_scattering::monte_carlo::PictureWalks;
@@ -8,6 +9,7 @@ use tyndall_scattering::params::GroundPattern;
 use tyndall_scene::camera::CameraFrame;
 use tyndall_scene::{CloudKind, LandscapeKind, MoonPosition, Scene, SkyKind};
 
+use crate::clouds::in_air::CloudsInAir;
 use crate::clouds::reference::{self as clouds, CloudReference};
 use crate::environment::sun_above_air;
 use crate::{RenderError, SKY_DEPTH_M};
@@ -36,14 +38,10 @@ pub fn left_out(scene: &Scene) -> Vec<&'static str> {
         ("the moon and its light", scene.moon.position != MoonPosition::None && scene.sky.kind == SkyKind::Air),
         ("stars and airglow", scene.stars.visible && dark),
         ("the landscape", scene.landscape.kind != LandscapeKind::None),
-        (
-            "the clouds (only before a black sky)",
-            scene.clouds.kind != CloudKind::None && scene.sky.kind == SkyKind::Air,
-        ),
+        ("the clouds' shade on ground and air", scene.clouds.kind != CloudKind::None && scene.sky.kind == SkyKind::Air),
         ("the ground's pattern", scene.ground.pattern != GroundPattern::Plain),
     ];
-    let of_clouds = if scene.sky.kind == SkyKind::Black { clouds::left_out(scene) } else { Vec::new() };
-    parts.into_iter().filter_map(|(name, present)| present.then_some(name)).chain(of_clouds).collect()
+    parts.into_iter().filter_map(|(name, present)| present.then_some(name)).chain(clouds::left_out(scene)).collect()
 }
 
 /// Renders with `paths` random walks a pixel, through the pixel's centre. `progress` is told the share that is done and
@@ -60,6 +58,7 @@ pub fn render_reference(
     if scene.sky.kind == SkyKind::Black {
         return render_clouds(scene, (paths, seed), progress);
     }
+    let clouds = CloudReference::new(scene)?;
     let scene = scene.grounded();
     let mut atmosphere = scene.model();
     for solar in &mut atmosphere.solar_irradiance_w_m2_nm {
@@ -84,9 +83,16 @@ pub fn render_reference(
             let ground_m = distance_to_ground(radius_m, h_m, direction.z);
             depth_m.push(ground_m.map_or(SKY_DEPTH_M, |t_m| planar_m(t_m * direction.dot(camera.forward))));
         }
-        for spectrum in walks.radiance(&rays, y * size_px[0], (paths, seed)) {
-            rgba.push(opaque(rec709_from_spectrum(&spectrum)));
+        let mut row = walks.radiance(&rays, y * size_px[0], (paths, seed));
+        if let Some(clouds) = &clouds {
+            let clouds = CloudsInAir { clouds, air: &walks, to_sun: sun.to_array() };
+            let pixels = row.par_iter_mut().zip(&rays).enumerate();
+            pixels.for_each(|(x, (light, ray))| {
+                let pixel = [u32::try_from(x).unwrap_or(u32::MAX), y];
+                *light = clouds.pixel(pixel, (ray, *light), (paths, seed));
+            });
         }
+        rgba.extend(row.iter().map(|spectrum| opaque(rec709_from_spectrum(spectrum))));
     }
     Ok(Some(ReferencePicture { size_px, rgba, depth_m }))
 }

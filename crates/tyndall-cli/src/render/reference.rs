@@ -25,7 +25,7 @@ pub(super) fn frame(
 ) -> Result<Frame, Failure> {
     let missing = left_out(scene);
     if !missing.is_empty() {
-        progress.warn(&format!("a reference picture shows sky and ground only; left out: {}", missing.join(", ")));
+        progress.warn(&format!("a reference picture leaves out {}", missing.join(", ")));
     }
     let mut go_on = |done: f64| progress.share("walking at random", done).is_ok() && interrupt.check().is_ok();
     let Some(picture) = render_reference(scene, (paths, seed), &mut go_on)? else {

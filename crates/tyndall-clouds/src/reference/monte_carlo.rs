@@ -48,6 +48,28 @@ pub struct PathResult {
     pub opacity: f64,
 }
 
+/// What one path through the medium found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSample {
+    /// Length of the line of sight to the first collision.
+    pub distance: f64,
+    /// Sunlight that all collisions scattered into the path (1/sr), for a sun of irradiance 1.
+    pub sunlight: f64,
+    /// Where the path left the medium; none when it was given up inside.
+    pub exit: Option<PathExit>,
+}
+
+/// Where a path left the medium: light from there is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathExit {
+    /// The last collision.
+    pub point: [f64; 3],
+    /// Where the path goes, of length 1.
+    pub direction: [f64; 3],
+    /// Share of the light from there that the path stands for.
+    pub weight: f64,
+}
+
 /// Random numbers of one path.
 struct PathRng {
     rng: CellRng,
@@ -88,12 +110,11 @@ pub fn path_radiance(
     pixel: u64,
     ray: impl Fn([f64; 2]) -> Ray,
 ) -> PathResult {
-    let world = World { medium, phase, light, settings, to_sun: normalised(light.to_sun) };
     let (mut sum, mut squares, mut met) = (0.0, 0.0, 0.0);
     for sample in 0..settings.samples {
-        let mut rng = PathRng::new(settings.seed, pixel, sample);
-        let place = [rng.uniform(), rng.uniform()];
-        if let Some(radiance) = world.follow(ray(place), &mut rng) {
+        if let Some(path) = path_sample(medium, phase, light, settings, (pixel, sample), &ray) {
+            let sky = path.exit.map_or(0.0, |exit| exit.weight * light.sky_radiance);
+            let radiance = path.sunlight * light.sun_irradiance + sky;
             sum += radiance;
             squares += radiance * radiance;
             met += 1.0;
@@ -105,6 +126,23 @@ pub fn path_radiance(
     PathResult { radiance, error: variance.sqrt(), opacity: met / count }
 }
 
+/// The path of a number of one pixel; none when it goes through without a collision. Sunlight is looked for where
+/// `light` has a sun.
+#[must_use]
+pub fn path_sample(
+    medium: &Medium,
+    phase: &TabulatedPhase,
+    light: &Light,
+    settings: &PathSettings,
+    (pixel, sample): (u64, u32),
+    ray: impl Fn([f64; 2]) -> Ray,
+) -> Option<PathSample> {
+    let world = World { medium, phase, light, settings, to_sun: normalised(light.to_sun) };
+    let mut rng = PathRng::new(settings.seed, pixel, sample);
+    let place = [rng.uniform(), rng.uniform()];
+    world.follow(ray(place), &mut rng)
+}
+
 struct World<'a> {
     medium: &'a Medium,
     phase: &'a TabulatedPhase,
@@ -114,16 +152,17 @@ struct World<'a> {
 }
 
 impl World<'_> {
-    /// Radiance along a path; none when it goes through without a collision.
-    fn follow(&self, ray: Ray, rng: &mut PathRng) -> Option<f64> {
+    /// What a path finds; none when it goes through without a collision.
+    fn follow(&self, ray: Ray, rng: &mut PathRng) -> Option<PathSample> {
         let mut direction = normalised(ray.direction);
         let mut point = self.collision(ray.origin, direction, rng)?;
-        let (mut radiance, mut weight) = (0.0, 1.0);
+        let away = [0, 1, 2].map(|axis| point[axis] - ray.origin[axis]);
+        let (mut sample, mut weight) = (PathSample { distance: dot(away, direction), sunlight: 0.0, exit: None }, 1.0);
         for order in 1..=self.settings.max_orders {
             weight *= self.settings.albedo;
             if self.light.sun_irradiance > 0.0 {
                 let scattered = self.phase.value(dot(self.to_sun, direction));
-                radiance += weight * scattered * self.light.sun_irradiance * self.sun_share(point, rng);
+                sample.sunlight += weight * scattered * self.sun_share(point, rng);
             }
             // Light that is weak already is followed now and then, for all that it stands for.
             if weight < 0.01 {
@@ -137,12 +176,12 @@ impl World<'_> {
                 Some(next) if order < self.settings.max_orders => point = next,
                 Some(_) => break,
                 None => {
-                    radiance += weight * self.light.sky_radiance;
+                    sample.exit = Some(PathExit { point, direction, weight });
                     break;
                 }
             }
         }
-        Some(radiance)
+        Some(sample)
     }
 
     /// Where a flight from `origin` ends; none when it leaves the box.

@@ -12,6 +12,7 @@ mod building;
 pub mod file;
 pub mod gpu_data;
 mod half;
+pub(crate) mod in_air;
 mod lamp;
 pub mod reference;
 mod report;

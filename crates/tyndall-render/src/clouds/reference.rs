@@ -1,13 +1,15 @@
-//! The clouds of a scene by random walks: what their picture should look like before a black sky.
+//! The clouds of a scene by random walks: what their picture should look like. Before a black sky here, in air in
+//! [`crate::reference`].
 //!
 //! Delta tracking through the cells that the frame draws ([`tyndall_clouds::reference`]), with every order of scattering that
-//! the scene counts, free of bias; lines of sight are those of the camera. Approximated: lines of sight are straight, where
-//! the frame's follow the curved Earth (8 cm over a kilometre). Not done: air, light of sky and ground, turbulence finer than
-//! a cell, and grids that repeat; [`left_out`] names what of that a scene has. Costs some 40 thousand walks a second and core.
+//! the scene counts, free of bias; lines of sight are those of the camera. Approximated: before a black sky lines of sight
+//! are straight, where the frame's follow the curved Earth (8 cm over a kilometre). Not done: turbulence finer than a cell and grids that repeat; [`left_out`] names what of that a scene has. Costs some 40 thousand walks a second and core.
 
 use glam::{DVec2, DVec3, UVec2};
 use rayon::prelude::*;
-use tyndall_clouds::reference::{Light, Medium, PathResult, PathSettings, Ray, TabulatedPhase, path_radiance};
+use tyndall_clouds::reference::{
+    Light, Medium, PathResult, PathSample, PathSettings, Ray, TabulatedPhase, path_radiance, path_sample,
+};
 use tyndall_clouds::{CloudError, CloudMatter, Edges};
 use tyndall_scene::camera::CameraFrame;
 use tyndall_scene::{CloudsParams, Orders, Scene};
@@ -75,6 +77,31 @@ impl CloudReference {
             path_radiance(&self.medium, &self.phase, &self.light, &settings, index, ray)
         };
         (0..self.size.x).into_par_iter().map(pixel).collect()
+    }
+
+    /// Paths that met a cloud, of those through a pixel, whose lines of sight bend with a planet of this radius.
+    pub(super) fn samples(&self, [x, y]: [u32; 2], (paths, seed): (u32, u64), radius_m: f64) -> Vec<PathSample> {
+        let settings = PathSettings { albedo: 1.0, max_orders: self.max_orders, samples: paths, seed };
+        let corner = DVec2::new(f64::from(x), f64::from(y));
+        let ray = |place: [f64; 2]| self.bent(self.ray(corner + DVec2::from_array(place)), radius_m);
+        let number = u64::from(self.number([x, y]));
+        let path = |sample| path_sample(&self.medium, &self.phase, &self.light, &settings, (number, sample), ray);
+        (0..paths).filter_map(path).collect()
+    }
+
+    /// Number of a pixel in its picture.
+    pub(super) fn number(&self, [x, y]: [u32; 2]) -> u32 {
+        y.wrapping_mul(self.size.x).wrapping_add(x)
+    }
+
+    /// The straight line that touches, in the middle of the cells, the parabola in which the ground falls away from a ray.
+    fn bent(&self, ray: Ray, radius_m: f64) -> Ray {
+        let Some([near, far]) = self.medium.crossing(ray.origin, ray.direction) else { return ray };
+        let middle_m = 0.5 * (near + far);
+        let ([x, y, z], [dx, dy, dz]) = (ray.origin, ray.direction);
+        let level = 1.0 - dz * dz;
+        let fall = level * middle_m / radius_m;
+        Ray { origin: [x, y, z - 0.5 * fall * middle_m], direction: [dx, dy, dz + fall] }
     }
 
     fn ray(&self, point_px: DVec2) -> Ray {

@@ -31,7 +31,7 @@ use crate::Atmosphere;
 use crate::geometry::{Ray, enter_atmosphere};
 use crate::single_scattering::{RayEnd, ray_end, single_scattering_to};
 
-pub use picture::PictureWalks;
+pub use picture::{AirStretch, PictureWalks};
 
 use layers::Layers;
 use path::{Place, Walker};
