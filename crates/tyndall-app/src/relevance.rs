@@ -44,7 +44,7 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
         {
             Some("The winds come from a table; leave Wind table empty.")
         }
-        ("desert" | "dunes" | "dune_classic" | "dune_wind" | "dune_plants" | "dune_rock" | "ripples", _)
+        ("desert" | "dunes" | "dune_classic" | "dune_wind" | "dune_plants" | "dune_rock" | "ripples" | "sand", _)
             if scene.desert.kind == DesertKind::None =>
         {
             Some("There is no desert; set Kind of the desert to dunes.")

@@ -2,7 +2,7 @@
 //!
 //! For each azimuth the bed is cut into parallel lines of cells. A line is walked towards the viewer with the upper hull of
 //! what was passed on a stack, so the horizon is exact along the line, however far away it is, at a cost that does not
-//! depend on the distance. Lines follow an azimuth to within half a cell. About 10 ns per cell and azimuth.
+//! depend on the distance. Between cells lines take the heights of the two beside them. About 20 ns per cell and azimuth.
 
 use std::f64::consts::TAU;
 
@@ -86,7 +86,16 @@ impl HorizonMap {
     }
 }
 
-/// A bed seen along one azimuth: steps go one cell along the major axis.
+/// Tangents of the horizon's elevation of all cells in one direction (rad anticlockwise from +x), in index order.
+///
+/// # Errors
+/// [`DuneError::Value`] when the azimuth is not within two turns.
+pub fn horizon_tangents(bed: &HeightGrid, azimuth_rad: f64, edges: Edges) -> Result<Vec<f32>, DuneError> {
+    check_value("azimuth", azimuth_rad, " rad", -2.0 * TAU..=2.0 * TAU)?;
+    Ok(one_azimuth(bed, azimuth_rad, edges))
+}
+
+/// A bed seen along one azimuth: steps go one cell along the major axis, and between cells across it.
 struct View<'a> {
     bed: &'a HeightGrid,
     edges: Edges,
@@ -99,16 +108,24 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    /// Column and row of a place on a line; not wrapped.
-    fn cell(&self, line: isize, along: isize) -> [isize; 2] {
-        let across = line + (along as f64 * self.shear).round() as isize;
-        let major = along * self.forwards;
-        if self.x_is_major { [major, across] } else { [across, major] }
+    /// Height where a line meets a step along the major axis, linear between two cells; `None` outside an open bed.
+    fn height(&self, line: isize, along: isize) -> Option<f64> {
+        let across = line as f64 + along as f64 * self.shear;
+        let (first, share) = (across.floor() as isize, across - across.floor());
+        let at = |across: isize| if self.x_is_major { [along, across] } else { [across, along] };
+        let height = |across: isize| {
+            let [x, y] = self.place(at(across));
+            self.bed.at(x, y)
+        };
+        let inside = self.edges == Edges::Periodic
+            || ((0..self.counts[0]).contains(&along) && across >= 0.0 && across <= (self.counts[1] - 1) as f64);
+        inside.then(|| height(first) + share * if share > 0.0 { height(first + 1) - height(first) } else { 0.0 })
     }
 
-    fn is_inside(&self, [x, y]: [isize; 2]) -> bool {
-        let [nx, ny] = self.bed.size().map(usize::cast_signed);
-        self.edges == Edges::Periodic || ((0..nx).contains(&x) && (0..ny).contains(&y))
+    /// Column and row of a place whose major coordinate runs with the view; not wrapped.
+    fn place(&self, [x, y]: [isize; 2]) -> [isize; 2] {
+        let mirrored = |at: isize| if self.forwards < 0 { self.counts[0] - 1 - at } else { at };
+        if self.x_is_major { [mirrored(x), y] } else { [x, mirrored(y)] }
     }
 }
 
@@ -117,38 +134,46 @@ fn one_azimuth(bed: &HeightGrid, azimuth_rad: f64, edges: Edges) -> Vec<f32> {
     let x_is_major = cos.abs() >= sin.abs();
     let [nx, ny] = bed.size().map(usize::cast_signed);
     let (major, minor, counts) = if x_is_major { (cos, sin, [nx, ny]) } else { (sin, cos, [ny, nx]) };
+    // Along the axes the sine or cosine is zero but for rounding.
+    let minor = if minor.abs() < 1e-9 { 0.0 } else { minor };
     let view =
         View { bed, edges, counts, x_is_major, forwards: if major < 0.0 { -1 } else { 1 }, shear: minor / major.abs() };
     // Along an open bed lines that start outside come in from the sides; a sheared bed is up to twice as wide.
-    let lines: Vec<isize> = match edges {
-        Edges::Periodic => (0..counts[1]).collect(),
-        Edges::Open => (-2 * counts[0]..counts[1] + 2 * counts[0]).collect(),
+    let first_line = if edges == Edges::Open { -counts[0] - 1 } else { 0 };
+    let lines = match edges {
+        Edges::Periodic => 0..counts[1],
+        Edges::Open => first_line..counts[1] + counts[0] + 1,
     };
-    let found: Vec<Vec<(usize, f32)>> = lines.into_par_iter().map(|line| one_line(&view, line)).collect();
+    let found: Vec<Vec<f32>> = lines.into_par_iter().map(|line| one_line(&view, line)).collect();
+    let of_line = |line: isize, along: isize| {
+        let index = if edges == Edges::Periodic { line.rem_euclid(counts[1]) } else { line - first_line };
+        f64::from(found[index.clamp(0, found.len().cast_signed() - 1).cast_unsigned()][along.cast_unsigned()])
+    };
     let mut tangents = vec![0.0; bed.heights().len()];
-    for (index, tangent) in found.into_iter().flatten() {
-        tangents[index] = tangent;
+    for along in 0..counts[0] {
+        for across in 0..counts[1] {
+            let line = across as f64 - along as f64 * view.shear;
+            let (first, share) = (line.floor() as isize, line - line.floor());
+            let here = of_line(first, along);
+            let tangent = if share > 0.0 { here + share * (of_line(first + 1, along) - here) } else { here };
+            let [x, y] = view.place(if x_is_major { [along, across] } else { [across, along] });
+            tangents[(y * nx + x).cast_unsigned()] = tangent as f32;
+        }
     }
     tangents
 }
 
-/// Horizons of the cells of one line.
-fn one_line(view: &View<'_>, line: isize) -> Vec<(usize, f32)> {
+/// Horizons along one line, a step after the other.
+fn one_line(view: &View<'_>, line: isize) -> Vec<f32> {
     let [length, _] = view.counts;
     // A periodic line goes round twice, so that each cell sees at least one whole round.
-    let range = match view.edges {
-        Edges::Periodic => 0..2 * length,
-        Edges::Open => -length..length,
-    };
+    let rounds = if view.edges == Edges::Periodic { 2 } else { 1 };
     let stride = view.shear.hypot(1.0);
     let mut hull: Vec<[f64; 2]> = Vec::with_capacity(64);
-    let mut found = Vec::with_capacity(length.cast_unsigned());
-    for along in range.rev() {
-        let [x, y] = view.cell(line, along);
-        if !view.is_inside([x, y]) {
-            continue;
-        }
-        let here = [along as f64 * stride, view.bed.at(x, y)];
+    let mut found = vec![0.0; length.cast_unsigned()];
+    for along in (0..rounds * length).rev() {
+        let Some(height) = view.height(line, along) else { continue };
+        let here = [along as f64 * stride, height];
         let slope = |to: [f64; 2]| (to[1] - here[1]) / (to[0] - here[0]);
         while let [.., behind, top] = hull[..] {
             if slope(behind) < slope(top) {
@@ -156,10 +181,8 @@ fn one_line(view: &View<'_>, line: isize) -> Vec<(usize, f32)> {
             }
             hull.pop();
         }
-        if view.edges == Edges::Open || along < length {
-            let [nx, ny] = view.bed.size().map(usize::cast_signed);
-            let index = y.rem_euclid(ny) * nx + x.rem_euclid(nx);
-            found.push((index.cast_unsigned(), hull.last().map_or(0.0, |top| slope(*top)) as f32));
+        if along < length {
+            found[along.cast_unsigned()] = hull.last().map_or(0.0, |top| slope(*top)) as f32;
         }
         hull.push(here);
     }

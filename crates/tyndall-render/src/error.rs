@@ -19,6 +19,9 @@ pub enum RenderError {
     /// Of the atmosphere.
     #[error(transparent)]
     Scattering(#[from] ScatteringError),
+    /// Of the desert.
+    #[error("desert: {0}")]
+    Sand(#[from] tyndall_dunes::DuneError),
     /// Of the clouds: a wind too fast for its grid.
     #[error("clouds: {0}")]
     Clouds(#[from] CloudError),

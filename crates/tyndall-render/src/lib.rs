@@ -13,6 +13,7 @@
 
 pub mod aerial;
 pub mod clouds;
+pub mod desert;
 pub mod desert_inputs;
 pub mod develop;
 pub mod dither;

@@ -12,6 +12,7 @@ use tyndall_scene::{Orders, OrdersDetail, Scene};
 
 use crate::aerial::{AerialRequest, AerialVolume};
 use crate::clouds::{CloudDrawData, CloudProgress, CloudRenderer, CloudSurroundings};
+use crate::desert::{DesertDrawData, DesertRenderer};
 use crate::develop::DevelopRenderer;
 use crate::exposure::ev100_from_gain;
 use crate::frame::{frame_uniform, gpu_data};
@@ -21,8 +22,8 @@ use crate::sky::{OrdersRequest, SkyLightTable, SkyRenderer, SkyTables, TableBuil
 use crate::splats::SplatRasteriser;
 use crate::{FrameTarget, RenderError, RendererConfig, View};
 
-/// Passes that a frame can have: five tables, light on surfaces and clouds, the air, three of the landscape, scene, clouds, meter, development.
-const TIMED_PASSES: u32 = 17;
+/// Passes that a frame can have: five tables, light on surfaces and clouds, the air, three of the landscape, the desert's mesh, scene, clouds, meter, development.
+const TIMED_PASSES: u32 = 18;
 
 /// Draws scenes. All pipelines are made at once, so that a wrong shader shows at the start.
 #[derive(Debug)]
@@ -34,6 +35,7 @@ pub struct Renderer {
     air: AerialVolume,
     sky: SkyRenderer,
     landscape: LandscapeRenderer,
+    desert: DesertRenderer,
     clouds: CloudRenderer,
     develop: DevelopRenderer,
     timer: PassTimer,
@@ -55,6 +57,7 @@ impl Renderer {
             air: AerialVolume::new(gpu)?,
             sky: SkyRenderer::new(gpu, config)?,
             landscape: LandscapeRenderer::new(gpu, config)?,
+            desert: DesertRenderer::new(gpu, config)?,
             clouds: CloudRenderer::new(gpu, config)?,
             develop: DevelopRenderer::new(gpu, config)?,
             timer: PassTimer::new(gpu, TIMED_PASSES)?,
@@ -92,7 +95,7 @@ impl Renderer {
             return Err(RenderError::Configuration { target: target.config, renderer: self.config });
         }
         scene.check()?;
-        let scene = &scene.grounded();
+        let scene = &self.grounded(scene)?;
         let frame = frame_uniform(scene, view, target.size_px(), self.config)?;
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
         self.pre_exposure = frame.pre_exposure;
@@ -107,7 +110,8 @@ impl Renderer {
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
         let clouds = self.prepare_clouds(gpu, &mut encoder, scene, target)?;
         let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), &frame)?;
-        self.record_scene(gpu, &mut encoder, (scene, landscape), target)?;
+        let desert = self.prepare_desert(gpu, &mut encoder, (scene, view), &frame)?;
+        self.record_scene(gpu, &mut encoder, (scene, landscape, desert), target)?;
         if let Some(clouds) = &clouds {
             let recording = (&mut encoder, &mut self.timer);
             self.clouds.draw_splats(gpu, recording, (clouds, scene, view), target)?;
@@ -127,7 +131,7 @@ impl Renderer {
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        (scene, landscape): (&Scene, Option<LandscapeDrawData>),
+        (scene, landscape, desert): (&Scene, Option<LandscapeDrawData>, Option<DesertDrawData>),
         target: &FrameTarget,
     ) -> Result<(), RenderError> {
         let dome = Dome { rings: scene.sky.dome_rings, segments: scene.sky.dome_segments };
@@ -150,6 +154,9 @@ impl Renderer {
         });
         if let Some(landscape) = &landscape {
             self.landscape.draw(&mut pass, landscape);
+        }
+        if let Some(desert) = &desert {
+            self.desert.draw(&mut pass, desert);
         }
         self.sky.draw(&mut pass, &sky);
         Ok(())
@@ -176,6 +183,38 @@ impl Renderer {
             clouds: &self.clouds,
         };
         self.landscape.prepare(gpu, encoder, &mut self.timer, (scene, view, size_px), surroundings)
+    }
+
+    /// Records what the desert needs, the light on it included.
+    fn prepare_desert(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        (scene, view): (&Scene, View),
+        frame: &gpu_data::Frame,
+    ) -> Result<Option<DesertDrawData>, RenderError> {
+        let size_px = frame.size_px;
+        let Some(reach) = self.desert.reach(scene, view, size_px) else { return Ok(None) };
+        self.light.update(gpu, encoder, &mut self.timer, &self.tables, (scene, reach))?;
+        let request = AerialRequest { scene, reach, frame: (frame, &self.frame), clouds: &self.clouds };
+        self.air.update(gpu, encoder, &mut self.timer, &self.tables, request)?;
+        let surroundings = LandscapeSurroundings {
+            frame: &self.frame,
+            tables: &self.tables,
+            light: &self.light,
+            air: &self.air,
+            clouds: &self.clouds,
+        };
+        self.desert.prepare(gpu, encoder, &mut self.timer, (scene, view, size_px), surroundings)
+    }
+
+    /// The scene with its camera at its height over what it stands on: the landscape, or the sand.
+    fn grounded(&mut self, scene: &Scene) -> Result<Scene, RenderError> {
+        let mut scene = scene.grounded();
+        if let Some(bed) = self.desert.simulate(&scene)? {
+            scene.camera.altitude_m += bed.at(scene.camera.x_m, scene.camera.y_m)[0];
+        }
+        Ok(scene)
     }
 
     /// Simulates and binds the clouds.

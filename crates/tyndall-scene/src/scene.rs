@@ -11,7 +11,7 @@ use crate::{
     AbrasionParams, AerosolInput, Atmosphere, AtmosphereParams, CameraParams, CameraProjection, ClassicParams,
     CloudGridParams, CloudKind, CloudMatterParams, CloudParams, CloudVapourParams, CloudWindParams, CloudsParams,
     DesertKind, DesertParams, DesertSceneParams, DuneParams, FilmParams, GroundParams, HazeParams, ImageParams,
-    LandscapeKind, LandscapeParams, MoonParams, MoonPosition, Orders, RippleParams, SceneError, SceneHash, SkyKind,
+    LandscapeKind, LandscapeParams, MoonParams, MoonPosition, Orders, RippleParams, SandParams, SceneError, SceneHash, SkyKind,
     SkyMode, SkyParams, StarsParams, SunDirection, SunParams, VegetationParams, WindParams, astronomy,
     astronomy::MoonState, brief::brief, nearest::nearest, sun,
 };
@@ -68,6 +68,8 @@ pub struct Scene {
     pub dune_rock: AbrasionParams,
     /// The tile of ripples on the sand.
     pub ripples: RippleParams,
+    /// What the sand looks like.
+    pub sand: SandParams,
     /// How the sky is computed.
     pub sky: SkyParams,
     /// Exposure and display.
@@ -79,7 +81,7 @@ pub struct Scene {
 impl Scene {
     /// The groups with their names in scene files, in the order in which they are shown.
     #[must_use]
-    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 23] {
+    pub fn groups(&self) -> [(&'static str, &dyn ParamSet); 24] {
         [
             ("camera", &self.camera),
             ("sun", &self.sun),
@@ -101,6 +103,7 @@ impl Scene {
             ("dune_plants", &self.dune_plants),
             ("dune_rock", &self.dune_rock),
             ("ripples", &self.ripples),
+            ("sand", &self.sand),
             ("sky", &self.sky),
             ("film", &self.film),
             ("image", &self.image),
@@ -109,7 +112,7 @@ impl Scene {
 
     /// [`Scene::groups`], to change them.
     #[must_use]
-    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 23] {
+    pub fn groups_mut(&mut self) -> [(&'static str, &mut dyn ParamSet); 24] {
         [
             ("camera", &mut self.camera),
             ("sun", &mut self.sun),
@@ -131,6 +134,7 @@ impl Scene {
             ("dune_plants", &mut self.dune_plants),
             ("dune_rock", &mut self.dune_rock),
             ("ripples", &mut self.ripples),
+            ("sand", &mut self.sand),
             ("sky", &mut self.sky),
             ("film", &mut self.film),
             ("image", &mut self.image),

@@ -88,14 +88,18 @@ impl Mesh {
 }
 
 /// The columns of a mesh.
-struct Azimuths {
-    first_rad: f64,
-    step_rad: f64,
-    count: u32,
+pub(crate) struct Azimuths {
+    /// Azimuth of the first column.
+    pub(crate) first_rad: f64,
+    /// From one column to the next.
+    pub(crate) step_rad: f64,
+    /// Number of columns.
+    pub(crate) count: u32,
 }
 
+/// Columns for what a view of so many pixels sees.
 #[expect(clippy::cast_possible_truncation, reason = "limited to the largest number of columns")]
-fn azimuths(frame: &CameraFrame, view: View, size_px: [u32; 2]) -> Azimuths {
+pub(crate) fn azimuths(frame: &CameraFrame, view: View, size_px: [u32; 2]) -> Azimuths {
     let px_rad = if view == View::Panorama {
         TAU / f64::from(size_px[0])
     } else {

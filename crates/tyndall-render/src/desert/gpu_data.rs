@@ -1,0 +1,89 @@
+//! The desert's uniform and how it follows from a scene.
+
+use tyndall_scene::{RippleLook, Scene};
+
+use super::mesh::DesertMesh;
+
+/// Twin of `Desert` in `shaders/desert/desert.wgsl`; units and meanings there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "documented at the WGSL twin")]
+pub struct Desert {
+    pub albedo: [f32; 3],
+    pub facets: f32,
+    pub ground: [f32; 3],
+    pub cell_m: f32,
+    pub size: [f32; 2],
+    pub tile_m: f32,
+    pub ripple_gain: f32,
+    pub columns: u32,
+    pub rings: u32,
+    pub wraps: u32,
+    pub ripples: u32,
+    pub centre_radius_m: f32,
+    pub far_radius_m: f32,
+    pub first_azimuth: f32,
+    pub azimuth_step: f32,
+    pub sun_half_width: f32,
+    pub shine: f32,
+    pub glints: f32,
+    pub bounce: f32,
+    pub tile_texels: f32,
+    pub hexagon_m: f32,
+    pub padding: [f32; 2],
+}
+
+/// Half the width (rad) over which a shadow's edge fades: the sun's radius, and what the air's glow around it adds.
+const SUN_EDGE: f64 = 0.006;
+
+/// Index of ripples that the tile has.
+pub(super) const TILE_INDEX: f64 = 16.0;
+
+/// Ripples from one corner of the lattice of patches to the next.
+const RIPPLES_A_PATCH: f64 = 14.0;
+
+impl Desert {
+    /// From a scene with a field of so many cells, its tile of ripples and the mesh of a view.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
+    pub fn new(scene: &Scene, size: [usize; 2], tile: TileScale, mesh: &DesertMesh) -> Self {
+        let sand = &scene.sand;
+        Self {
+            albedo: [sand.red, sand.green, sand.blue].map(|albedo| albedo as f32),
+            facets: sand.roughness_deg.to_radians().powi(2) as f32,
+            ground: [scene.ground.red, scene.ground.green, scene.ground.blue].map(|albedo| albedo as f32),
+            cell_m: scene.dunes.cell_m as f32,
+            size: size.map(|cells| cells as f32),
+            tile_m: (tile.ripples * sand.ripple_length_m) as f32,
+            ripple_gain: (TILE_INDEX / sand.ripple_index) as f32,
+            columns: mesh.columns,
+            rings: mesh.rings,
+            wraps: u32::from(scene.dunes.edges == tyndall_scene::Edges::Periodic),
+            ripples: match sand.ripples {
+                RippleLook::None => 0,
+                RippleLook::Paper => 1,
+                RippleLook::Best => 2,
+            },
+            centre_radius_m: mesh.centre_radius_m as f32,
+            far_radius_m: mesh.far_radius_m as f32,
+            first_azimuth: mesh.first_azimuth_rad as f32,
+            azimuth_step: mesh.azimuth_step_rad as f32,
+            sun_half_width: SUN_EDGE as f32,
+            shine: sand.shine as f32,
+            glints: sand.glints as f32,
+            bounce: sand.bounce as f32,
+            tile_texels: tile.texels as f32,
+            hexagon_m: (RIPPLES_A_PATCH * sand.ripple_length_m) as f32,
+            padding: [0.0; 2],
+        }
+    }
+}
+
+/// How large a tile of ripples is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TileScale {
+    /// Texels of a side.
+    pub texels: usize,
+    /// Ripples along a side.
+    pub ripples: f64,
+}

@@ -1,0 +1,253 @@
+//! The desert: dunes and ripples of sand in the light of the sky. WGSL: `shaders/desert`.
+//!
+//! The field of dunes is simulated up to the scene's step when it is first drawn, or goes on from the step before. Its heights
+//! are smooth splines ([`bed`]), drawn as a mesh of rings around the camera ([`mesh`]) with the exact slope at each pixel;
+//! ripples are slopes ([`ripple_tile`]). The sun's shadow and the sky's openness come from horizons of the field, which a
+//! periodic field repeats to the planet's horizon.
+//!
+//! Not done: ripples do not change the outline of the sand or cast shadows; the moon does not light it.
+
+pub mod bed;
+pub mod gpu_data;
+mod light;
+pub mod mesh;
+pub mod ripple_tile;
+pub mod smooth;
+mod source;
+mod textures;
+
+use tyndall_gpu::wgpu::{self, BufferUsages};
+use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture};
+use tyndall_scene::Scene;
+
+use crate::landscape::LandscapeSurroundings;
+use crate::sky::SkyLightReach;
+use crate::target::DEPTH_FORMAT;
+use crate::{RenderError, RendererConfig, View};
+use bed::Bed;
+use gpu_data::Desert;
+use mesh::DesertMesh;
+use source::BedSource;
+use textures::{BedTextures, light_texture, sampler, tile_textures};
+
+/// Bytes of a vertex.
+const VERTEX_BYTES: u64 = 16;
+
+/// Pipelines, maps and meshes of the desert.
+#[derive(Debug)]
+pub struct DesertRenderer {
+    fill_mesh: ComputePipeline,
+    dunes: RenderPipeline,
+    uniform: Buffer,
+    source: BedSource,
+    /// Maps of the bed, and its revision.
+    bed: Option<(u64, BedTextures)>,
+    /// Textures of the tile of ripples, and its revision.
+    tile: Option<(u64, [Texture; 2])>,
+    tile_sampler: wgpu::Sampler,
+    /// Light of the sun, with the bed's revision and the sun's direction.
+    light: Option<((u64, [f64; 2]), Texture)>,
+    vertices: Option<Buffer>,
+    /// What the vertices were computed for, and from where.
+    holds: Option<(u64, Desert, [f32; 3])>,
+}
+
+/// What is drawn of a frame's desert.
+#[derive(Debug)]
+pub struct DesertDrawData {
+    groups: [wgpu::BindGroup; 4],
+    mesh: DesertMesh,
+}
+
+impl DesertRenderer {
+    /// Makes the pipelines.
+    ///
+    /// # Errors
+    /// When a shader is wrong or memory does not suffice.
+    pub fn new(gpu: &Gpu, config: RendererConfig) -> Result<Self, RenderError> {
+        let depth = wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        };
+        let dunes = RenderPipeline::new(
+            gpu,
+            &Shader::load(gpu, "desert/dunes.wgsl")?,
+            &RenderPipelineDesc {
+                label: "dunes",
+                vertex: "dunes_vertex",
+                fragment: "dunes_fragment",
+                targets: &[config.frame_format().into()],
+                depth: Some(depth),
+                primitive: wgpu::PrimitiveState {
+                    topology: wgpu::PrimitiveTopology::TriangleStrip,
+                    ..wgpu::PrimitiveState::default()
+                },
+                constants: &[],
+            },
+        )?;
+        let bytes = size_of::<Desert>() as u64;
+        Ok(Self {
+            fill_mesh: ComputePipeline::new(gpu, &Shader::load(gpu, "desert/mesh.wgsl")?, "desert_mesh", &[])?,
+            dunes,
+            uniform: gpu.buffer("desert", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
+            source: BedSource::default(),
+            bed: None,
+            tile: None,
+            tile_sampler: sampler(gpu, wgpu::AddressMode::Repeat),
+            light: None,
+            vertices: None,
+            holds: None,
+        })
+    }
+
+    /// Simulates the scene's desert up to its step, and forgets the last one when the scene has none.
+    ///
+    /// # Errors
+    /// When parameters do not fit together or a file cannot be read.
+    pub fn simulate(&mut self, scene: &Scene) -> Result<Option<&Bed>, RenderError> {
+        self.source.update(scene)?;
+        Ok(self.source.bed())
+    }
+
+    /// How far the light on the desert of the last simulation must reach.
+    #[must_use]
+    pub fn reach(&self, scene: &Scene, view: View, size_px: [u32; 2]) -> Option<SkyLightReach> {
+        let bed = self.source.bed()?;
+        let mesh = mesh(scene, view, size_px, bed);
+        Some(SkyLightReach { distance_m: mesh.far_radius_m, top_altitude_m: bed.highest_m() })
+    }
+
+    /// Records what the desert of a grounded scene needs before it is drawn; `None` without one.
+    ///
+    /// # Errors
+    /// When the scene has no sun position or memory does not suffice.
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: &mut PassTimer,
+        (scene, view, size_px): (&Scene, View, [u32; 2]),
+        surroundings: LandscapeSurroundings<'_>,
+    ) -> Result<Option<DesertDrawData>, RenderError> {
+        let (Some(bed), Some(tile)) = (self.source.bed(), self.source.tile()) else { return Ok(None) };
+        let mesh = mesh(scene, view, size_px, bed);
+        let uniform = Desert::new(scene, bed.heights.size(), tile.scale, &mesh);
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        self.update_maps(gpu, scene)?;
+        self.update_mesh(gpu, encoder, timer, (scene, &mesh, &uniform), surroundings.frame)?;
+        self.bind(gpu, surroundings).map(|groups| groups.map(|groups| DesertDrawData { groups, mesh }))
+    }
+
+    /// Uploads what has changed of bed, ripples and sunlight.
+    fn update_maps(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), RenderError> {
+        let (Some(bed), Some(tile)) = (self.source.bed(), self.source.tile()) else { return Ok(()) };
+        let [of_bed, of_tile] = self.source.revisions();
+        if self.bed.as_ref().is_none_or(|(revision, _)| *revision != of_bed) {
+            self.bed = Some((of_bed, BedTextures::new(gpu, bed)?));
+        }
+        if self.tile.as_ref().is_none_or(|(revision, _)| *revision != of_tile) {
+            self.tile = Some((of_tile, tile_textures(gpu, tile)?));
+        }
+        let sun = scene.sun_direction()?;
+        let key = (of_bed, [sun.azimuth_rad, sun.elevation_rad]);
+        if self.light.as_ref().is_none_or(|(held, _)| *held != key) {
+            let map = light::light_map(bed, std::f64::consts::FRAC_PI_2 - sun.azimuth_rad, sun.elevation_rad)?;
+            self.light = Some((key, light_texture(gpu, bed, &map)?));
+        }
+        Ok(())
+    }
+
+    fn bind(
+        &self,
+        gpu: &Gpu,
+        surroundings: LandscapeSurroundings<'_>,
+    ) -> Result<Option<[wgpu::BindGroup; 4]>, RenderError> {
+        let (Some((_, bed)), Some((_, tile)), Some((_, light))) = (&self.bed, &self.tile, &self.light) else {
+            return Ok(None);
+        };
+        let Some(vertices) = &self.vertices else { return Ok(None) };
+        let tables = surroundings.tables;
+        let mut sky =
+            vec![("atmosphere", tables.atmosphere.as_entire_binding()), ("sky_view", tables.view.as_entire_binding())];
+        sky.extend(surroundings.light.bindings());
+        sky.extend(surroundings.air.bindings());
+        let own = [
+            ("desert", self.uniform.as_entire_binding()),
+            ("bed_heights", bed.heights.as_entire_binding()),
+            ("dune_vertices", vertices.as_entire_binding()),
+            ("dune_light", light.as_binding()),
+            ("ripple_tile", tile[0].as_binding()),
+            ("ripple_cross", tile[1].as_binding()),
+            ("ripple_winds", bed.winds.as_binding()),
+            ("desert_sampler", wgpu::BindingResource::Sampler(&bed.sampler)),
+            ("ripple_sampler", wgpu::BindingResource::Sampler(&self.tile_sampler)),
+        ];
+        let frame = [("frame", surroundings.frame.as_entire_binding())];
+        let shade = surroundings.clouds.shadow_bindings();
+        let dunes = &self.dunes;
+        Ok(Some([
+            dunes.bind(gpu, 0, &sky)?,
+            dunes.bind(gpu, 1, &frame)?,
+            dunes.bind(gpu, 2, &own)?,
+            dunes.bind(gpu, 3, &shade)?,
+        ]))
+    }
+
+    fn update_mesh(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: &mut PassTimer,
+        (scene, mesh, uniform): (&Scene, &DesertMesh, &Desert),
+        frame: &Buffer,
+    ) -> Result<(), RenderError> {
+        let Some((revision, bed)) = &self.bed else { return Ok(()) };
+        #[expect(clippy::cast_possible_truncation, reason = "as the shaders get it")]
+        let from = [scene.camera.x_m, scene.camera.y_m, scene.camera.altitude_m].map(|at_m| at_m as f32);
+        let wanted = Some((*revision, *uniform, from));
+        let bytes = u64::from(mesh.vertices()) * VERTEX_BYTES;
+        let fits = self.vertices.as_ref().is_some_and(|buffer| buffer.bytes() >= bytes);
+        if fits && self.holds == wanted {
+            return Ok(());
+        }
+        if !fits {
+            self.vertices = Some(gpu.buffer("desert vertices", bytes, BufferUsages::STORAGE)?);
+        }
+        let Some(vertices) = &self.vertices else { return Ok(()) };
+        let own = [
+            ("desert", self.uniform.as_entire_binding()),
+            ("desert_vertices", vertices.as_entire_binding()),
+            ("bed_heights", bed.heights.as_entire_binding()),
+        ];
+        let frame = self.fill_mesh.bind(gpu, 1, &[("frame", frame.as_entire_binding())])?;
+        let own = self.fill_mesh.bind(gpu, 2, &own)?;
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("desert mesh"),
+            timestamp_writes: timer.compute_writes("desert mesh"),
+        });
+        pass.set_bind_group(1, &frame, &[]);
+        pass.set_bind_group(2, &own, &[]);
+        self.fill_mesh.dispatch(&mut pass, [mesh.columns, mesh.rings, 1]);
+        drop(pass);
+        self.holds = wanted;
+        Ok(())
+    }
+
+    /// Draws the desert; first of all, for it hides most of what is behind it.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, data: &DesertDrawData) {
+        pass.set_pipeline(self.dunes.raw());
+        for (index, group) in (0..).zip(&data.groups) {
+            pass.set_bind_group(index, group, &[]);
+        }
+        pass.draw(0..2 * data.mesh.columns, 0..data.mesh.rings - 1);
+    }
+}
+
+fn mesh(scene: &Scene, view: View, size_px: [u32; 2], bed: &Bed) -> DesertMesh {
+    let camera = &scene.camera;
+    let clearance_m = camera.altitude_m - bed.at(camera.x_m, camera.y_m)[0];
+    DesertMesh::new(scene, view, size_px, clearance_m, bed.highest_m())
+}

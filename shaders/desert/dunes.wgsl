@@ -1,0 +1,102 @@
+// Draws the desert: a mesh of rings with smooth slopes at each pixel, ripples, and sand lit by sun, sky and sand.
+// @import aerial/lookup.wgsl
+// @import clouds/shadow.wgsl
+// @import common/sand.wgsl
+// @import desert/bed.wgsl
+// @import desert/glints.wgsl
+// @import desert/ripples.wgsl
+// @import landscape/place.wgsl
+// @import sky/light_lookup.wgsl
+
+@group(2) @binding(3) var<storage, read> dune_vertices: array<vec4<f32>>;
+@group(2) @binding(4) var dune_light: texture_2d<f32>; // tangent of the horizon under the sun, openness, sunlit share around
+
+struct DuneVertex {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) from_camera: vec2<f32>, // m along the ground
+    @location(1) position: vec3<f32>,    // m relative to the camera
+    @location(2) @interpolate(flat) spacing: f32, // m, of the quadrilateral
+}
+
+/// A pixel's sand: where it lies and how it is seen.
+struct DunePixel {
+    place: vec2<f32>,
+    altitude: f32,
+    normal: vec3<f32>,
+    slope: vec2<f32>,
+    covariance: vec3<f32>, // of slopes within the pixel
+    view: vec3<f32>,       // towards the camera
+    sun: vec3<f32>,
+    footprint_m: f32,
+    wide_m: f32,
+}
+
+@vertex
+fn dunes_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) ring: u32) -> DuneVertex {
+    let vertex = dune_vertices[(ring + (index & 1u)) * desert.columns + index / 2u];
+    let position = place_position(vertex.xy, vertex.z);
+    return DuneVertex(place_clip(position), vertex.xy, position, vertex.w);
+}
+
+/// Share of the sun's disc over the horizon of a place.
+fn dune_sun(horizon: f32, sun: vec3<f32>) -> f32 {
+    let over = atan2(sun.z, max(length(sun.xy), 1e-5)) - atan(horizon);
+    return smoothstep(-1.0, 1.0, over / desert.sun_half_width);
+}
+
+/// Radiance (cd/m^2) that sand sends to the camera.
+fn dune_radiance(pixel: DunePixel, albedo: vec3<f32>) -> vec3<f32> {
+    let n = pixel.normal;
+    let sun = pixel.sun;
+    let nu = dot(n, sun);
+    let up = pixel.covariance;
+    let variance = (sun.x * sun.x * up.x + 2.0 * sun.x * sun.y * up.y + sun.y * sun.y * up.z) * n.z * n.z;
+    let lit = sand_mean_cosine(nu, max(variance, 0.0));
+    let view = max(dot(n, pixel.view), 0.02);
+    let between = dot(sun, pixel.view);
+    let light = textureSampleLevel(dune_light, desert_sampler, desert_map_place(pixel.place), log2(max(pixel.wide_m / desert.cell_m, 1.0)));
+    let shade = cloud_shade_at(pixel.place, pixel.altitude);
+    let sunlight = sky_light_sun(pixel.altitude, sun.z);
+    let direct = sunlight * dune_sun(light.x, sun) * shade.direct;
+    let facets = sand_facets(max(nu, 0.0), view, between, desert.facets + 0.5 * (up.x + up.z));
+    let from_sun = direct * lit * facets * sand_backscatter(between);
+    let sines = sqrt(max((1.0 - n.z * n.z) * (1.0 - sun.z * sun.z), 1e-12));
+    let cos_phi = clamp((nu - n.z * sun.z) / sines, -1.0, 1.0);
+    let scattered = sunlight * max(sun.z, 0.0) * (0.5 + 0.5 * n.z) * shade.diffuse;
+    let sky = sky_light_irradiance(pixel.altitude, sun.z, n.z, cos_phi, nu) * shade.sky + scattered;
+    // What sand hides of the sky it replaces by its own light.
+    let level = sky_light_irradiance(pixel.altitude, sun.z, 1.0, 1.0, sun.z) * shade.sky + scattered;
+    let thrown = desert.bounce * albedo * (sunlight * shade.direct * light.z + level);
+    let from_around = mix(thrown, sky, clamp(light.y, 0.0, 1.0));
+    let halfway = normalize(sun + pixel.view);
+    let rough = up + vec3<f32>(desert.facets, 0.0, desert.facets) * 0.6;
+    let mirror = sand_mirror(halfway, pixel.slope, rough, view, dot(halfway, pixel.view));
+    let glint = mix(1.0, glints_at(pixel.place, pixel.footprint_m, halfway), desert.glints);
+    let lit_side = smoothstep(0.0, 0.1, nu);
+    return albedo * (from_sun + from_around) / SKY_PI + desert.shine * direct * lit_side * mirror * glint;
+}
+
+@fragment
+fn dunes_fragment(vertex: DuneVertex) -> @location(0) vec4<f32> {
+    let plane = frame_plane(vertex.clip);
+    let distance = length(vertex.position);
+    let view = -vertex.position / distance;
+    let pixel_m = 0.7 * distance * frame_pixel_angle(plane);
+    let place = frame.position_m.xy + vertex.from_camera;
+    let coarse = bed_at(place, pixel_m);
+    let facing = max(dot(normalize(vec3<f32>(-coarse.yz, 1.0)), view), 0.04);
+    let wide_m = min(pixel_m * inverseSqrt(facing), 4.0 * pixel_m);
+    let bed = bed_at(place, wide_m);
+    let wind = ripple_wind(place, wide_m);
+    let long = view.xy / max(length(view.xy), 1e-4) * pixel_m / facing;
+    let quad_m = 0.25 * vertex.spacing;
+    let ripples = ripples_at(place, long, select(pixel_m, quad_m, desert.ripples == 1u), length(wind.xy));
+    let slope = bed.yz + ripples.slope;
+    let normal = normalize(vec3<f32>(-slope, 1.0));
+    let sun = place_sun(vertex.from_camera);
+    let pixel = DunePixel(place, max(bed.x, 0.0), normal, slope, ripples.covariance, view, sun, pixel_m, wide_m);
+    let cover = wind.w * desert_inside(place);
+    let radiance = dune_radiance(pixel, mix(desert.ground, desert.albedo, cover));
+    let air = aerial_seen(plane, distance, sky_sun_cosine(-view));
+    return vec4<f32>((radiance * air.transmittance + air.light) * frame.pre_exposure, 1.0);
+}
