@@ -8,6 +8,7 @@ use tyndall_gpu::rust_layout;
 use tyndall_gpu_sim::gpu_data::{Dunes, Ripples, Sand, SandPass};
 use tyndall_render::aerial::gpu_data::Aerial;
 use tyndall_render::clouds::gpu_data::{CloudShadow, Clouds};
+use tyndall_render::desert::gpu_data::Desert;
 use tyndall_render::frame::gpu_data::Frame;
 use tyndall_render::landscape::gpu_data::Landscape;
 use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyLight, SkyView};
@@ -55,6 +56,7 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
         ("Aerial", rust_layout!(Aerial { columns, rows, far_m, unit })),
         clouds(),
         cloud_shadow(),
+        desert(),
         dunes(),
         landscape(),
         orders(),
@@ -180,6 +182,37 @@ fn cloud_shadow() -> (&'static str, StructLayout) {
             mean,
             moonlit,
             lamp,
+            padding,
+        }),
+    )
+}
+
+/// Twin of `Desert`.
+fn desert() -> (&'static str, StructLayout) {
+    (
+        "Desert",
+        rust_layout!(Desert {
+            albedo,
+            facets,
+            ground,
+            cell_m,
+            size,
+            tile_m,
+            ripple_gain,
+            columns,
+            rings,
+            wraps,
+            ripples,
+            centre_radius_m,
+            far_radius_m,
+            first_azimuth,
+            azimuth_step,
+            sun_half_width,
+            shine,
+            glints,
+            bounce,
+            tile_texels,
+            hexagon_m,
             padding,
         }),
     )

@@ -59,13 +59,23 @@ mod grain;
 mod lattice;
 mod noise;
 mod phase;
+mod sand;
 mod spectrum;
 mod sphere;
 mod tone;
 
 /// The tables of all files.
-const TABLES: &[&[Row]] =
-    &[erosion::ROWS, grain::ROWS, lattice::ROWS, noise::ROWS, phase::ROWS, spectrum::ROWS, sphere::ROWS, tone::ROWS];
+const TABLES: &[&[Row]] = &[
+    erosion::ROWS,
+    grain::ROWS,
+    lattice::ROWS,
+    noise::ROWS,
+    phase::ROWS,
+    sand::ROWS,
+    spectrum::ROWS,
+    sphere::ROWS,
+    tone::ROWS,
+];
 
 /// Shared functions that no row compares, and rows that compare no shared function.
 fn gaps(files: &[(&str, &str)], rows: &[&Row]) -> Vec<String> {

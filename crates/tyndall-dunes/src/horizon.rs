@@ -112,14 +112,29 @@ impl View<'_> {
     fn height(&self, line: isize, along: isize) -> Option<f64> {
         let across = line as f64 + along as f64 * self.shear;
         let (first, share) = (across.floor() as isize, across - across.floor());
-        let at = |across: isize| if self.x_is_major { [along, across] } else { [across, along] };
-        let height = |across: isize| {
-            let [x, y] = self.place(at(across));
-            self.bed.at(x, y)
-        };
-        let inside = self.edges == Edges::Periodic
-            || ((0..self.counts[0]).contains(&along) && across >= 0.0 && across <= (self.counts[1] - 1) as f64);
-        inside.then(|| height(first) + share * if share > 0.0 { height(first + 1) - height(first) } else { 0.0 })
+        let second = if share > 0.0 { first + 1 } else { first };
+        let inside = self.is_inside([along, first]) && self.is_inside([along, second]);
+        inside.then(|| mix([self.at([along, first]), self.at([along, second])], share))
+    }
+
+    /// Where a line crosses a row of cells between a step along the major axis and the next: steps to there, and height.
+    fn crossing(&self, line: isize, along: isize) -> Option<[f64; 2]> {
+        let across = [along, along + 1].map(|along| line as f64 + along as f64 * self.shear);
+        let row = across[0].max(across[1]).floor();
+        let share = (row - across[0]) / self.shear;
+        let inside = self.is_inside([along, row as isize]) && self.is_inside([along + 1, row as isize]);
+        let heights = || [along, along + 1].map(|along| self.at([along, row as isize]));
+        (share > 0.0 && share < 1.0 && inside).then(|| [along as f64 + share, mix(heights(), share)])
+    }
+
+    fn at(&self, [along, across]: [isize; 2]) -> f64 {
+        let [x, y] = self.place(if self.x_is_major { [along, across] } else { [across, along] });
+        self.bed.at(x, y)
+    }
+
+    fn is_inside(&self, [along, across]: [isize; 2]) -> bool {
+        let [length, width] = self.counts;
+        self.edges == Edges::Periodic || ((0..length).contains(&along) && (0..width).contains(&across))
     }
 
     /// Column and row of a place whose major coordinate runs with the view; not wrapped.
@@ -127,6 +142,10 @@ impl View<'_> {
         let mirrored = |at: isize| if self.forwards < 0 { self.counts[0] - 1 - at } else { at };
         if self.x_is_major { [mirrored(x), y] } else { [x, mirrored(y)] }
     }
+}
+
+fn mix([first, second]: [f64; 2], share: f64) -> f64 {
+    first + share * (second - first)
 }
 
 fn one_azimuth(bed: &HeightGrid, azimuth_rad: f64, edges: Edges) -> Vec<f32> {
@@ -172,21 +191,30 @@ fn one_line(view: &View<'_>, line: isize) -> Vec<f32> {
     let mut hull: Vec<[f64; 2]> = Vec::with_capacity(64);
     let mut found = vec![0.0; length.cast_unsigned()];
     for along in (0..rounds * length).rev() {
+        if let Some([steps, height]) = view.crossing(line, along) {
+            see(&mut hull, [steps * stride, height]);
+        }
         let Some(height) = view.height(line, along) else { continue };
-        let here = [along as f64 * stride, height];
-        let slope = |to: [f64; 2]| (to[1] - here[1]) / (to[0] - here[0]);
-        while let [.., behind, top] = hull[..] {
-            if slope(behind) < slope(top) {
-                break;
-            }
-            hull.pop();
-        }
+        let tangent = see(&mut hull, [along as f64 * stride, height]);
         if along < length {
-            found[along.cast_unsigned()] = hull.last().map_or(0.0, |top| slope(*top)) as f32;
+            found[along.cast_unsigned()] = tangent.unwrap_or(0.0) as f32;
         }
-        hull.push(here);
     }
     found
+}
+
+/// The steepest view from a place over what was passed, which the place joins.
+fn see(hull: &mut Vec<[f64; 2]>, here: [f64; 2]) -> Option<f64> {
+    let slope = |to: [f64; 2]| (to[1] - here[1]) / (to[0] - here[0]);
+    while let [.., behind, top] = hull[..] {
+        if slope(behind) < slope(top) {
+            break;
+        }
+        hull.pop();
+    }
+    let steepest = hull.last().map(|top| slope(*top));
+    hull.push(here);
+    steepest
 }
 
 #[cfg(test)]

@@ -38,7 +38,8 @@ pub use hash::SceneHash;
 pub use params::{
     CameraParams, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, CloudResolution, CloudsParams, DesertKind,
     DesertSceneParams, ExposureMode, FilmParams, ImageParams, LandscapeKind, LandscapeParams, MoonParams, MoonPhase,
-    MoonPosition, Orders, OrdersDetail, RippleLook, SandParams, SkyKind, SkyMode, SkyParams, StarsParams, SunParams, SunPosition, ToneMap,
+    MoonPosition, Orders, OrdersDetail, RippleLook, SandParams, SkyKind, SkyMode, SkyParams, StarsParams, SunParams,
+    SunPosition, ToneMap,
 };
 pub use place::Place;
 pub use preset::{Preset, presets};

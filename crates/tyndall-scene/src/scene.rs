@@ -11,8 +11,8 @@ use crate::{
     AbrasionParams, AerosolInput, Atmosphere, AtmosphereParams, CameraParams, CameraProjection, ClassicParams,
     CloudGridParams, CloudKind, CloudMatterParams, CloudParams, CloudVapourParams, CloudWindParams, CloudsParams,
     DesertKind, DesertParams, DesertSceneParams, DuneParams, FilmParams, GroundParams, HazeParams, ImageParams,
-    LandscapeKind, LandscapeParams, MoonParams, MoonPosition, Orders, RippleParams, SandParams, SceneError, SceneHash, SkyKind,
-    SkyMode, SkyParams, StarsParams, SunDirection, SunParams, VegetationParams, WindParams, astronomy,
+    LandscapeKind, LandscapeParams, MoonParams, MoonPosition, Orders, RippleParams, SandParams, SceneError, SceneHash,
+    SkyKind, SkyMode, SkyParams, StarsParams, SunDirection, SunParams, VegetationParams, WindParams, astronomy,
     astronomy::MoonState, brief::brief, nearest::nearest, sun,
 };
 

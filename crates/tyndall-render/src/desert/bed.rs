@@ -3,11 +3,11 @@
 //! Heights between cells are cubic B-splines (WGSL: `shaders/desert/bed.wgsl`), twice smooth, of cells that have lost the
 //! steps of single slabs ([`super::smooth`]).
 
+use tyndall_dunes::DesertSimulation;
 use tyndall_dunes::Edges;
 use tyndall_dunes::export::DuneMaps;
 use tyndall_dunes::horizon::HorizonMap;
 use tyndall_dunes::measure::HeightGrid;
-use tyndall_dunes::DesertSimulation;
 
 use super::smooth::{blur, smooth_bed};
 use crate::RenderError;
@@ -155,9 +155,8 @@ fn openness(heights: &HeightGrid, horizons: &HorizonMap, cell: usize) -> f32 {
 /// Ripples of a field: absent in the lee, where their heights fade over a few cells, and longer where the wind is stronger.
 #[expect(clippy::cast_possible_truncation, reason = "textures hold less than f32")]
 fn ripples(maps: &DuneMaps, heights: &HeightGrid, edges: Edges) -> Vec<[f32; 4]> {
-    let soft = |part: &dyn Fn(usize) -> f32| {
-        blur(&(0..maps.ripples.len()).map(part).collect::<Vec<_>>(), maps.size, edges)
-    };
+    let soft =
+        |part: &dyn Fn(usize) -> f32| blur(&(0..maps.ripples.len()).map(part).collect::<Vec<_>>(), maps.size, edges);
     let east = soft(&|cell| maps.ripples[cell][0]);
     let north = soft(&|cell| maps.ripples[cell][1]);
     let cover = soft(&|cell| (maps.sand_m[cell] / (0.1 * maps.cell_m as f32)).clamp(0.0, 1.0));

@@ -11,6 +11,7 @@ pub mod bed;
 pub mod gpu_data;
 mod light;
 pub mod mesh;
+pub mod reflection;
 pub mod ripple_tile;
 pub mod smooth;
 mod source;

@@ -5,8 +5,8 @@
 //! [`TILE_INDEX`](super::gpu_data). A texel of a mip level is the mean of four of the finer one, so that M - B B^T of a
 //! level is the covariance of the slopes within its texels (Olano and Baker 2010).
 
-use tyndall_dunes::ripples::RippleBed;
 use tyndall_dunes::measure::{HeightGrid, mean_wavelength_cells};
+use tyndall_dunes::ripples::RippleBed;
 use tyndall_dunes::{DuneError, Edges, SandSimulation as _};
 use tyndall_scene::RippleParams;
 

@@ -35,7 +35,8 @@ pub fn blur(values: &[f32], [nx, ny]: [usize; 2], edges: Edges) -> Vec<f32> {
         Edges::Open => (at + tap).saturating_sub(2).min(count - 1),
     };
     let cells = || (0..ny).flat_map(move |y| (0..nx).map(move |x| (x, y)));
-    let weighted = |value: &dyn Fn(usize) -> f32| KERNEL.iter().enumerate().map(|(tap, weight)| weight * value(tap)).sum();
+    let weighted =
+        |value: &dyn Fn(usize) -> f32| KERNEL.iter().enumerate().map(|(tap, weight)| weight * value(tap)).sum();
     let rows: Vec<f32> = cells().map(|(x, y)| weighted(&|tap| values[y * nx + index(x, tap, nx)])).collect();
     cells().map(|(x, y)| weighted(&|tap| rows[index(y, tap, ny) * nx + x])).collect()
 }
@@ -65,9 +66,8 @@ mod tests {
         let worst = |bed: &HeightGrid| {
             // On the windward slope, away from its ends.
             let cells = (0..128).flat_map(|y| (20..55).map(move |x| (x, y)));
-            let squares: Vec<f64> = cells
-                .map(|(x, y)| (bed.gradient(x, y)[0] - exact.gradient(x, y)[0]).powi(2))
-                .collect();
+            let squares: Vec<f64> =
+                cells.map(|(x, y)| (bed.gradient(x, y)[0] - exact.gradient(x, y)[0]).powi(2)).collect();
             (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
         };
         let (before, after) = (worst(&rough), worst(&smooth));
@@ -85,7 +85,8 @@ mod tests {
 
     #[test]
     fn smoothing_an_even_slope_does_not_move_it() {
-        let plane = HeightGrid::new([32, 32], (0..1024).map(|index| (index % 32) as f32 * 0.3).collect()).expect("1024");
+        let plane =
+            HeightGrid::new([32, 32], (0..1024).map(|index| (index % 32) as f32 * 0.3).collect()).expect("1024");
         let smooth = smooth_bed(plane.clone(), SLAB, Edges::Open);
         for (x, y) in [(10, 10), (16, 3), (20, 31)] {
             assert!((smooth.at(x, y) - plane.at(x, y)).abs() < 1e-5, "({x}, {y}): {}", smooth.at(x, y));

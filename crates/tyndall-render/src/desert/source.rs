@@ -30,7 +30,7 @@ impl BedSource {
         let wanted = (params, scene.desert.clone(), scene.folder.to_path_buf());
         if self.bed.as_ref().is_none_or(|(held, _)| *held != wanted) {
             let inputs = desert_inputs(scene)?;
-            let simulation = self.fields.at_unless(&wanted.0, &inputs, scene.desert.steps, &|| false)?;
+            let simulation = self.fields.at_unless(&wanted.0, &inputs, scene.desert.steps, &|_| false)?;
             self.bed = simulation.map(Bed::new).transpose()?.map(|bed| (wanted, bed));
             self.revisions[0] += 1;
         }

@@ -21,7 +21,8 @@ impl BedTextures {
     /// Of a bed.
     pub(super) fn new(gpu: &Gpu, bed: &Bed) -> Result<Self, RenderError> {
         let size = bed.heights.size();
-        let address = if bed.edges == Edges::Periodic { wgpu::AddressMode::Repeat } else { wgpu::AddressMode::ClampToEdge };
+        let address =
+            if bed.edges == Edges::Periodic { wgpu::AddressMode::Repeat } else { wgpu::AddressMode::ClampToEdge };
         let texels = bed.height_levels().concat();
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         let heights = gpu.buffer("heights of the desert", size_of_val(&texels[..]) as u64, usage)?;
@@ -43,11 +44,8 @@ pub(super) fn light_texture(gpu: &Gpu, bed: &Bed, light: &[[f32; 4]]) -> Result<
 pub(super) fn tile_textures(gpu: &Gpu, tile: &RippleTile) -> Result<[Texture; 2], RenderError> {
     let size = [tile.scale.texels; 2];
     let half = |value: f32| f16::from_f32(value).to_bits();
-    let slopes: Vec<Vec<[u16; 4]>> = tile
-        .levels
-        .iter()
-        .map(|level| level.iter().map(|m| [m[0], m[1], m[2], m[3]].map(half)).collect())
-        .collect();
+    let slopes: Vec<Vec<[u16; 4]>> =
+        tile.levels.iter().map(|level| level.iter().map(|m| [m[0], m[1], m[2], m[3]].map(half)).collect()).collect();
     let cross: Vec<Vec<u16>> = tile.levels.iter().map(|level| level.iter().map(|m| half(m[4])).collect()).collect();
     Ok([
         levels(gpu, "slopes of ripples", size, TextureFormat::Rgba16Float, &slopes)?,

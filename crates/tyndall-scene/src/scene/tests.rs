@@ -52,6 +52,7 @@ fn both_lists_of_groups_have_the_same_names_in_the_same_order() {
             "dune_plants",
             "dune_rock",
             "ripples",
+            "sand",
             "sky",
             "film",
             "image"
