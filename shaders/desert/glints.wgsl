@@ -23,5 +23,5 @@ fn glints_at(place: vec2<f32>, footprint_m: f32, halfway: vec3<f32>) -> f32 {
     let share = level - octave;
     let both = mix(glints_octave(place, octave, halfway), glints_octave(place, octave + 1.0, halfway), share);
     let seen = 1.0 - smoothstep(0.01, 0.06, footprint_m);
-    return mix(1.0, min(both, 400.0), seen);
+    return mix(1.0, min(both, 40.0), seen);
 }

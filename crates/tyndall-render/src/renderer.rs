@@ -269,6 +269,7 @@ impl Renderer {
     /// Chooses where slow tables are kept between runs; nowhere unless chosen. A software adapter's table of all orders of
     /// scattering is such a table; GPUs make theirs faster than a file is read. A kept table has the bits of a new one.
     pub fn set_table_store(&mut self, store: Option<Arc<dyn TableStore>>) {
+        self.desert.set_store(store.clone());
         self.tables.set_store(store);
     }
 

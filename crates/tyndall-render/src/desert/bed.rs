@@ -46,7 +46,7 @@ impl Bed {
         let horizons = HorizonMap::new(&heights, SKY_AZIMUTHS, edges)?;
         let openness = (0..size[0] * size[1]).map(|cell| openness(&heights, &horizons, cell)).collect::<Vec<_>>();
         Ok(Self {
-            openness: blur(&openness, size, edges),
+            openness: blur(&openness, size, edges, 1),
             ripples: ripples(&maps, &heights, edges),
             heights,
             cell_m,
@@ -156,7 +156,7 @@ fn openness(heights: &HeightGrid, horizons: &HorizonMap, cell: usize) -> f32 {
 #[expect(clippy::cast_possible_truncation, reason = "textures hold less than f32")]
 fn ripples(maps: &DuneMaps, heights: &HeightGrid, edges: Edges) -> Vec<[f32; 4]> {
     let soft =
-        |part: &dyn Fn(usize) -> f32| blur(&(0..maps.ripples.len()).map(part).collect::<Vec<_>>(), maps.size, edges);
+        |part: &dyn Fn(usize) -> f32| blur(&(0..maps.ripples.len()).map(part).collect::<Vec<_>>(), maps.size, edges, 1);
     let east = soft(&|cell| maps.ripples[cell][0]);
     let north = soft(&|cell| maps.ripples[cell][1]);
     let cover = soft(&|cell| (maps.sand_m[cell] / (0.1 * maps.cell_m as f32)).clamp(0.0, 1.0));

@@ -6,8 +6,8 @@ use tyndall_dunes::horizon::horizon_tangents;
 use super::bed::Bed;
 use super::smooth::blur;
 
-/// Radius of the surroundings whose light counts, in passes of the blur on every fourth cell.
-const AROUND_PASSES: u32 = 6;
+/// Passes of the blur, the nth with taps n cells apart: some eight cells around.
+const AROUND_PASSES: usize = 4;
 
 /// For each cell: tangent of the horizon's elevation under the sun, openness of the sky, and sunlight that surfaces around
 /// receive on the mean, of that on a surface that faces the sun.
@@ -27,8 +27,8 @@ pub(super) fn light_map(bed: &Bed, azimuth_from_east_rad: f64, elevation_rad: f6
         if seen { (facing / (1.0 + gx * gx + gy * gy).sqrt()).max(0.0) as f32 } else { 0.0 }
     };
     let mut around: Vec<f32> = (0..tangents.len()).map(lit).collect();
-    for _ in 0..AROUND_PASSES {
-        around = blur(&around, size, bed.edges);
+    for pass in 1..=AROUND_PASSES {
+        around = blur(&around, size, bed.edges, pass);
     }
     let cell = |((tangent, openness), around): ((&f32, &f32), &f32)| [*tangent, *openness, *around, 0.0];
     Ok(tangents.iter().zip(&bed.openness).zip(&around).map(cell).collect())

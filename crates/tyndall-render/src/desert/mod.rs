@@ -9,6 +9,7 @@
 
 pub mod bed;
 pub mod gpu_data;
+mod kept;
 mod light;
 pub mod mesh;
 pub mod reflection;
@@ -17,6 +18,9 @@ pub mod smooth;
 mod source;
 mod textures;
 
+use std::sync::Arc;
+
+use tyndall_core::table_store::TableStore;
 use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture};
 use tyndall_scene::Scene;
@@ -102,6 +106,11 @@ impl DesertRenderer {
             vertices: None,
             holds: None,
         })
+    }
+
+    /// Chooses where simulated fields are kept between runs; nowhere unless chosen.
+    pub fn set_store(&mut self, store: Option<Arc<dyn TableStore>>) {
+        self.source.set_store(store);
     }
 
     /// Simulates the scene's desert up to its step, and forgets the last one when the scene has none.

@@ -35,7 +35,7 @@ impl RippleTile {
         bed.run(steps);
         let side = params.side.cells();
         // The rule's cells are noisy; grains smooth them.
-        Ok(Self::of_heights(&blur(&bed.heights_cells(), [side, side], Edges::Periodic), side))
+        Ok(Self::of_heights(&blur(&bed.heights_cells(), [side, side], Edges::Periodic, 1), side))
     }
 
     /// From the heights of a periodic bed, in any unit.

@@ -1,38 +1,42 @@
-//! Takes the steps of single slabs out of a bed and leaves crests sharp.
+//! Takes the steps of slabs out of a bed and leaves crests sharp.
 //!
-//! Heights are moved towards their surroundings as far as a slab's thickness explains the difference; at a crest it is many
-//! times larger, and nothing moves there. Three passes of a kernel one cell wide.
+//! Heights are moved towards their surroundings as far as a few slabs explain the difference; at a crest it is many times
+//! larger, and nothing moves there. Kernels of growing width, the way of wavelets "with holes", take out lumps of several cells.
 
 use tyndall_dunes::Edges;
 use tyndall_dunes::measure::HeightGrid;
 
-const PASSES: u32 = 3;
+/// Distance of the kernel's taps (cells) in each pass.
+const STRIDES: [usize; 5] = [1, 1, 2, 2, 3];
 
-/// Weights of the five cells around one.
+/// Slabs that a difference may have to count as an accident.
+const SLABS: f32 = 2.0;
+
+/// Weights of five taps.
 const KERNEL: [f32; 5] = [1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0];
 
-/// A bed without steps up to about `step_cells`.
+/// A bed without steps of slabs that are `slab_cells` thick.
 #[must_use]
-pub fn smooth_bed(bed: HeightGrid, step_cells: f32, edges: Edges) -> HeightGrid {
+pub fn smooth_bed(bed: HeightGrid, slab_cells: f32, edges: Edges) -> HeightGrid {
     let size = bed.size();
     let mut heights = bed.heights().to_vec();
-    for _ in 0..PASSES {
-        let around = blur(&heights, size, edges);
+    for stride in STRIDES {
+        let around = blur(&heights, size, edges, stride);
         for (height, around) in heights.iter_mut().zip(around) {
             let off = around - *height;
-            let unexplained = (off / (1.5 * step_cells).max(1e-6)).powi(4);
+            let unexplained = (off / (SLABS * slab_cells).max(1e-6)).powi(4);
             *height += off / (1.0 + unexplained);
         }
     }
     HeightGrid::new(size, heights).unwrap_or(bed)
 }
 
-/// Means over about one cell on each side; rows, then columns.
+/// Means over about `stride` cells on each side; rows, then columns.
 #[must_use]
-pub fn blur(values: &[f32], [nx, ny]: [usize; 2], edges: Edges) -> Vec<f32> {
+pub fn blur(values: &[f32], [nx, ny]: [usize; 2], edges: Edges, stride: usize) -> Vec<f32> {
     let index = |at: usize, tap: usize, count: usize| match edges {
-        Edges::Periodic => (at + tap + count - 2) % count,
-        Edges::Open => (at + tap).saturating_sub(2).min(count - 1),
+        Edges::Periodic => (at + tap * stride + 2 * stride * count - 2 * stride) % count,
+        Edges::Open => (at + tap * stride).saturating_sub(2 * stride).min(count - 1),
     };
     let cells = || (0..ny).flat_map(move |y| (0..nx).map(move |x| (x, y)));
     let weighted =
@@ -63,33 +67,33 @@ mod tests {
     fn steps_of_slabs_vanish_from_slopes() {
         let (exact, rough) = (ridge(false), ridge(true));
         let smooth = smooth_bed(rough.clone(), SLAB, Edges::Periodic);
-        let worst = |bed: &HeightGrid| {
+        let noise = |bed: &HeightGrid| {
             // On the windward slope, away from its ends.
-            let cells = (0..128).flat_map(|y| (20..55).map(move |x| (x, y)));
+            let cells = (0..128).flat_map(|y| (20..50).map(move |x| (x, y)));
             let squares: Vec<f64> =
                 cells.map(|(x, y)| (bed.gradient(x, y)[0] - exact.gradient(x, y)[0]).powi(2)).collect();
             (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
         };
-        let (before, after) = (worst(&rough), worst(&smooth));
-        // 0.007 is 0.4 degrees, as much as a slope of 11 degrees changes its light by 3 per cent under a sun at 15.
-        assert!(before > 0.02 && after < 0.007, "slope noise {before} before, {after} after");
+        let (before, after) = (noise(&rough), noise(&smooth));
+        // 0.003 is 0.2 degrees: light under a sun at 15 degrees changes by 1 per cent.
+        assert!(before > 0.02 && after < 0.003, "slope noise {before} before, {after} after");
     }
 
     #[test]
     fn crests_stay_sharp() {
         let (exact, smooth) = (ridge(false), smooth_bed(ridge(true), SLAB, Edges::Periodic));
         let drop = (0..128).map(|y| exact.at(64, y) - smooth.at(64, y)).sum::<f64>() / 128.0;
-        // Three passes of the plain kernel take half a cell off this crest.
-        assert!(drop.abs() < 0.1, "the crest is {drop} cells lower");
+        // The plain kernels would take 1.5 cells off this crest.
+        assert!(drop.abs() < 0.15, "the crest is {drop} cells lower");
     }
 
     #[test]
     fn smoothing_an_even_slope_does_not_move_it() {
-        let plane =
-            HeightGrid::new([32, 32], (0..1024).map(|index| (index % 32) as f32 * 0.3).collect()).expect("1024");
+        let heights = (0..4096).map(|index| (index % 64) as f32 * 0.3).collect();
+        let plane = HeightGrid::new([64, 64], heights).expect("as many heights as cells");
         let smooth = smooth_bed(plane.clone(), SLAB, Edges::Open);
-        for (x, y) in [(10, 10), (16, 3), (20, 31)] {
-            assert!((smooth.at(x, y) - plane.at(x, y)).abs() < 1e-5, "({x}, {y}): {}", smooth.at(x, y));
+        for (x, y) in [(30, 10), (32, 3), (33, 63)] {
+            assert!((smooth.at(x, y) - plane.at(x, y)).abs() < 1e-4, "({x}, {y}): {}", smooth.at(x, y));
         }
     }
 }
