@@ -18,7 +18,7 @@ fn heightmap(place: &Place, words: &[&str]) -> Run {
 }
 
 fn sidecar(place: &Place, name: &str) -> Value {
-    serde_json::from_slice(&place.read(name)).unwrap()
+    serde_json::from_slice(&place.read(name)).expect("JSON")
 }
 
 /// A height map as its sidecar says how to read it.
@@ -26,7 +26,8 @@ fn read(place: &Place, name: &str, described: &Value) -> HeightMap {
     let number = |key: &str| described[key].as_f64().expect(key);
     #[expect(clippy::cast_possible_truncation, reason = "heights are f32")]
     let range_m = ["lowest_m", "highest_m"].map(|key| number(key) as f32);
-    read_height_map(place.path(name), HeightScale { range_m, pixel_m: number("metres_per_pixel") }).unwrap()
+    read_height_map(place.path(name), HeightScale { range_m, pixel_m: number("metres_per_pixel") })
+        .expect("a height map")
 }
 
 #[test]
