@@ -6,7 +6,9 @@
 // @import common/phase.wgsl
 // @import sky/view.wgsl
 
-const CLOUD_STEPS: u32 = 400u;
+/// Most places with matter on a ray, and most without in between.
+const CLOUD_STEPS: u32 = 320u;
+const CLOUD_LEAPS: u32 = 200u;
 /// Step over the side of a cell near the camera, and over the distance far away.
 const CLOUD_STEP_CELLS: f32 = 0.5;
 const CLOUD_STEP_GROWTH: f32 = 0.01;
@@ -71,49 +73,71 @@ fn cloud_sun_depth(place: vec3<f32>, level: f32) -> f32 {
     return near * CLOUD_NEAR_CELLS * clouds.cell_m * clouds.full_per_m + far;
 }
 
-/// Gathers light along a ray up to `limit_m`; `jitter` 0..1 moves the samples within their steps.
-fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
+/// A piece of a ray with matter in it, or none with a share of 0.
+struct CloudPiece {
+    place: vec3<f32>, // cells
+    distance_m: f32,  // of the place
+    length_m: f32,
+    share: f32,       // of full extinction
+    level: f32,       // mip level of turbulence
+    next_m: f32,      // where to go on
+}
+
+/// The next piece with matter from `start_m` on, in steps `stretch` times as long as the finest. A loop of its own, so that a
+/// group of rays pays for light only where one of them has matter.
+fn cloud_next(direction: vec3<f32>, start_m: f32, end_m: f32, stretch: f32, jitter: f32) -> CloudPiece {
     let radius = atmosphere.planet_radius_m;
     let h0 = cloud_eye_m.z;
+    let texel_angle = frame_pixel_angle(vec2<f32>(0.0)) / clouds.cell_m;
+    var piece = CloudPiece(vec3<f32>(0.0), 0.0, 0.0, 0.0, 0.0, start_m);
+    for (var i = 0u; i < CLOUD_LEAPS; i++) { // loops: CLOUD_LEAPS
+        if ((piece.next_m >= end_m) | (piece.share > 0.0)) { break; }
+        let t = piece.next_m;
+        let fine_m = max(CLOUD_STEP_CELLS * clouds.cell_m, CLOUD_STEP_GROWTH * t);
+        piece.length_m = min(fine_m * stretch, end_m - t);
+        piece.distance_m = t + jitter * piece.length_m;
+        let h = altitude_along(radius, h0, direction.z, piece.distance_m);
+        piece.place = cloud_place(cloud_eye_m.xy + piece.distance_m * direction.xy, h);
+        let rise = (direction.z * (radius + h0) + piece.distance_m) / (radius + h);
+        let steepest = max(max(abs(direction.x), abs(direction.y)), abs(rise));
+        let skip_m = cloud_skip(piece.place) * clouds.cell_m / steepest;
+        piece.next_m = t + max(skip_m, piece.length_m);
+        if (skip_m <= piece.length_m) {
+            piece.level = cloud_billow_level(piece.distance_m * texel_angle);
+            piece.share = cloud_share(piece.place);
+            if (piece.share > 0.0) {
+                piece.share = cloud_detailed(piece.share, piece.place, piece.level);
+            }
+        }
+    }
+    return piece;
+}
+
+/// Gathers light along a ray up to `limit_m`; `jitter` 0..1 moves the samples within their steps.
+fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
     let span = cloud_span(direction.z, limit_m);
     let phases = cloud_phases(cloud_shade_cosine(direction));
-    let texel_angle = frame_pixel_angle(vec2<f32>(0.0)) / clouds.cell_m;
     var light = CloudLight(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
     let often = f32(clouds.all_orders);
     var thin = 1.0; // transmittance for light that was scattered often
     var t = span.x;
     for (var i = 0u; i < CLOUD_STEPS; i++) { // loops: CLOUD_STEPS
-        if (t >= span.y) { break; }
         let is_dim = light.transmittance < CLOUD_DIM;
-        let fine_step = max(CLOUD_STEP_CELLS * clouds.cell_m, CLOUD_STEP_GROWTH * t);
-        let step = min(fine_step * select(1.0, CLOUD_DIM_STEPS, is_dim), span.y - t);
-        let at = t + jitter * step;
-        let h = altitude_along(radius, h0, direction.z, at);
-        let place = cloud_place(cloud_eye_m.xy + at * direction.xy, h);
-        let rise = (direction.z * (radius + h0) + at) / (radius + h);
-        let steepest = max(max(abs(direction.x), abs(direction.y)), abs(rise));
-        let skip = cloud_skip(place) * clouds.cell_m / steepest;
-        if (skip > step) {
-            t += skip;
-            continue;
-        }
-        t += step;
-        let share = cloud_share(place);
-        if (share <= 0.0) { continue; }
-        let level = cloud_billow_level(at * texel_angle);
-        let fade = 1.0 - smoothstep((1.0 - CLOUD_FADE) * clouds.reach_m, clouds.reach_m, at);
-        let depth = cloud_detailed(share, place, level) * clouds.full_per_m * fade * step;
-        if (depth <= 0.0) { continue; }
-        let cell = cloud_light_at(place);
+        let piece = cloud_next(direction, t, span.y, select(1.0, CLOUD_DIM_STEPS, is_dim), jitter);
+        t = piece.next_m;
+        if (piece.share <= 0.0 && t >= span.y) { break; }
+        let fade = 1.0 - smoothstep((1.0 - CLOUD_FADE) * clouds.reach_m, clouds.reach_m, piece.distance_m);
+        let depth = piece.share * clouds.full_per_m * fade * piece.length_m;
+        let cell = cloud_light_at(piece.place);
         var sun_depth = cell.x;
         if (!is_dim) {
-            sun_depth = cloud_sun_depth(place, level);
+            sun_depth = cloud_sun_depth(piece.place, piece.level);
         }
         let left = exp(-depth);
         let seen = light.transmittance * (1.0 - left);
         let direct = exp(-sun_depth);
         light.sun += seen * phases.x * direct;
-        light.distance_m += seen * at;
+        light.distance_m += seen * piece.distance_m;
         light.transmittance *= left;
         let left_thin = exp(-clouds.transport * depth);
         let seen_thin = often * thin * (1.0 - left_thin);

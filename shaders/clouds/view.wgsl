@@ -67,10 +67,11 @@ fn cloud_radiance(direction: vec3<f32>, light: CloudLight, pixel: vec2<u32>) -> 
     return light.sun * atmosphere_rec709(cloud_lamp_irradiance(direction, t, h)) + ambient + light.forward * behind;
 }
 
-/// Frame value of a ray's light behind the air before it, and the transmittance of the clouds; none where they hardly show.
+/// Frame value of a ray's light behind the air before it, and the transmittance of the clouds. Leaves pixels alone where clouds
+/// hardly show, which spares whole groups of them what follows.
 fn cloud_shown(light: CloudLight, direction: vec3<f32>, pixel: vec2<u32>) -> vec4<f32> {
     if (light.transmittance > 0.9999) {
-        return vec4<f32>(0.0, 0.0, 0.0, 1.0);
+        discard;
     }
     let air = cloud_air(direction, light.distance_m);
     let over = air.transmittance * cloud_radiance(direction, light, pixel) + air.veil * (1.0 - light.transmittance);

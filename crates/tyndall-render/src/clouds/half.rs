@@ -80,18 +80,20 @@ impl HalfClouds {
         target: &FrameTarget,
     ) {
         let Some(part) = &self.part else { return };
+        // Where no cloud is, the march leaves what is there: nothing, and full transmittance.
+        let clear = wgpu::LoadOp::Clear(wgpu::Color::BLACK);
         let passes = [
-            ("clouds", &self.march, part, (0, march)),
-            ("clouds over", &self.over, &target.frame, (1, std::slice::from_ref(over))),
+            ("clouds", &self.march, (part, clear), (0, march)),
+            ("clouds over", &self.over, (&target.frame, wgpu::LoadOp::Load), (1, std::slice::from_ref(over))),
         ];
-        for (label, pipeline, texture, (first, groups)) in passes {
+        for (label, pipeline, (texture, load), (first, groups)) in passes {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(label),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                     view: texture.view(),
                     depth_slice: None,
                     resolve_target: None,
-                    ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+                    ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
                 })],
                 timestamp_writes: timer.render_writes(label),
                 ..Default::default()
