@@ -26,31 +26,15 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
             Some("The ground is plain; set Pattern to checker.")
         }
         ("landscape", name) => landscape(scene.landscape.kind, name),
-        ("desert", "kind") => None,
-        ("desert", "terrain_low_m" | "terrain_high_m")
-            if scene.desert.kind != DesertKind::None && scene.desert.terrain.is_empty() =>
-        {
-            Some("The ground is level; name a height map in Terrain.")
-        }
-        ("desert", "grain_um" | "wind_sectors")
-            if scene.desert.kind != DesertKind::None && scene.desert.wind_table.is_empty() =>
-        {
-            Some("The winds are those of dune wind; name a table in Wind table.")
-        }
-        ("dune_wind", name)
-            if scene.desert.kind != DesertKind::None
-                && name != "period_steps"
-                && !scene.desert.wind_table.is_empty() =>
-        {
-            Some("The winds come from a table; leave Wind table empty.")
-        }
+        ("desert" | "clouds", "kind") => None,
         ("desert" | "dunes" | "dune_classic" | "dune_wind" | "dune_plants" | "dune_rock" | "ripples" | "sand", _)
             if scene.desert.kind == DesertKind::None =>
         {
             Some("There is no desert; set Kind of the desert to dunes.")
         }
-        ("dunes" | "dune_classic" | "dune_wind" | "dune_plants" | "dune_rock", name) => dunes(scene, group, name),
-        ("clouds", "kind") => None,
+        ("desert", name) => desert(scene, group, name),
+        ("dune_wind", name) => desert(scene, group, name).or_else(|| dunes(scene, group, name)),
+        ("dunes" | "dune_classic" | "dune_plants" | "dune_rock", name) => dunes(scene, group, name),
         ("clouds" | "cloud_grid" | "cloud_vapour" | "cloud_wind" | "cloud_matter", _)
             if scene.clouds.kind == CloudKind::None =>
         {
@@ -82,6 +66,26 @@ fn landscape(kind: LandscapeKind, name: &str) -> Option<&'static str> {
     match (kind, name) {
         (_, "kind") => None,
         (LandscapeKind::None, _) => Some("There is no landscape; set Kind to one."),
+        _ => None,
+    }
+}
+
+/// Of what a desert takes from files.
+fn desert(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
+    if scene.desert.kind == DesertKind::None {
+        return None;
+    }
+    let has_table = !scene.desert.wind_table.is_empty();
+    match (group, name) {
+        ("desert", "terrain_low_m" | "terrain_high_m") if scene.desert.terrain.is_empty() => {
+            Some("The ground is level; name a height map in Terrain.")
+        }
+        ("desert", "grain_um" | "wind_sectors") if !has_table => {
+            Some("The winds are those of dune wind; name a table in Wind table.")
+        }
+        ("dune_wind", name) if name != "period_steps" && has_table => {
+            Some("The winds come from a table; leave Wind table empty.")
+        }
         _ => None,
     }
 }
