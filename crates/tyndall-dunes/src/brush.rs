@@ -74,28 +74,13 @@ impl DuneField {
         radius_cells: f64,
         depth_cells: f64,
     ) -> Result<u32, DuneError> {
-        let pace = 2.0 * radius_cells * PACE;
-        let (mut prints, mut walked) = (0_u32, 0.0);
         for leg in path_cells.windows(2) {
-            let [dx, dy] = [leg[1][0] - leg[0][0], leg[1][1] - leg[0][1]];
-            let length = check_value("length of a leg of a trail", dx.hypot(dy), " cells", 0.0..=1e5)?;
-            let toward_deg = dy.atan2(dx).to_degrees();
-            while walked < length {
-                let side = if prints.is_multiple_of(2) { STRADDLE } else { -STRADDLE } * 2.0 * radius_cells;
-                let share = walked / length;
-                let across = [-dy / length * side, dx / length * side];
-                let center_cells =
-                    [0, 1].map(|axis| leg[0][axis] + share * (leg[1][axis] - leg[0][axis]) + across[axis]);
-                self.apply(&Stroke {
-                    brush: Brush::Footprint { depth_cells, toward_deg },
-                    center_cells,
-                    radius_cells,
-                })?;
-                (prints, walked) = (prints + 1, walked + pace);
-            }
-            walked -= length;
+            let length = (leg[1][0] - leg[0][0]).hypot(leg[1][1] - leg[0][1]);
+            check_value("length of a leg of a trail", length, " cells", 0.0..=1e5)?;
         }
-        Ok(prints)
+        let prints = trail(path_cells, radius_cells, depth_cells);
+        prints.iter().try_for_each(|print| self.apply(print).map(|_change| ()))?;
+        Ok(prints.len() as u32)
     }
 
     /// Cells within `reach` of the middle: index, and offset of the cell's middle from that of the brush.
@@ -170,6 +155,43 @@ impl DuneField {
     }
 }
 
+/// A place on a path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathStep {
+    /// The place.
+    pub(crate) place: [f64; 2],
+    /// Direction of the path there, of length 1.
+    along: [f64; 2],
+}
+
+/// Places on a path, one after the other at this distance, the first one at its start.
+pub(crate) fn walk(path: &[[f64; 2]], pace: f64) -> Vec<PathStep> {
+    let (mut steps, mut walked) = (Vec::new(), 0.0);
+    for leg in path.windows(2) {
+        let [dx, dy] = [leg[1][0] - leg[0][0], leg[1][1] - leg[0][1]];
+        let length = dx.hypot(dy);
+        while walked < length {
+            let share = walked / length;
+            let place = [leg[0][0] + share * dx, leg[0][1] + share * dy];
+            steps.push(PathStep { place, along: [dx / length, dy / length] });
+            walked += pace;
+        }
+        walked -= length;
+    }
+    steps
+}
+
+/// Footprints along a path, left and right in turn (cells).
+pub(crate) fn trail(path_cells: &[[f64; 2]], radius_cells: f64, depth_cells: f64) -> Vec<Stroke> {
+    let steps = walk(path_cells, 2.0 * radius_cells * PACE).into_iter().enumerate();
+    let print = |(index, PathStep { place, along: [dx, dy] }): (usize, PathStep)| {
+        let side = if index.is_multiple_of(2) { STRADDLE } else { -STRADDLE } * 2.0 * radius_cells;
+        let brush = Brush::Footprint { depth_cells, toward_deg: dy.atan2(dx).to_degrees() };
+        Stroke { brush, center_cells: [place[0] - dy * side, place[1] + dx * side], radius_cells }
+    };
+    steps.map(print).collect()
+}
+
 fn quanta(cells: f64) -> i32 {
     (cells * f64::from(DUNE_QUANTA_PER_CELL)).round() as i32
 }
@@ -180,7 +202,8 @@ fn falloff([x, y]: [f64; 2], radius: f64) -> f64 {
     share * share
 }
 
-fn check_stroke(stroke: &Stroke) -> Result<(), DuneError> {
+/// That a stroke's numbers are in range.
+pub(crate) fn check_stroke(stroke: &Stroke) -> Result<(), DuneError> {
     for center in stroke.center_cells {
         check_value("position of a brush", center, " cells", -1e6..=1e6)?;
     }

@@ -1,6 +1,7 @@
 //! A desert from parameters: the field of dunes with its winds, plants and rock put together, and its state for files.
 
 mod ages;
+pub mod by_hand;
 mod inputs;
 mod params;
 mod simulation;

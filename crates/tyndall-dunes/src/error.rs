@@ -58,6 +58,14 @@ pub enum DuneError {
         /// Highest allowed.
         high: f64,
     },
+    /// A text by hand cannot be read.
+    #[error("{name}: {problem}")]
+    Text {
+        /// The parameter.
+        name: &'static str,
+        /// What is wrong and what is allowed.
+        problem: String,
+    },
     /// A line of a table of winds cannot be read.
     #[error("line {line}, column {column}: {message}")]
     WindTable {

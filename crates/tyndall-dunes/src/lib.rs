@@ -44,6 +44,7 @@ pub mod terrain;
 pub mod wind;
 pub mod wind_rose;
 
+pub use desert::by_hand;
 pub use desert::{DesertInputs, DesertParams, DesertSimulation, DesertSource, state_step};
 pub use edges::Edges;
 pub use error::DuneError;

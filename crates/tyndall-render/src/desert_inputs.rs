@@ -6,10 +6,10 @@ use std::sync::Arc;
 use tyndall_io::{HeightScale, IoError, read_height_map};
 use tyndall_scene::{DesertInputs, DesertKind, Scene};
 
-use tyndall_dunes::DuneError;
 use tyndall_dunes::terrain::Terrain;
 use tyndall_dunes::wind::WindSchedule;
 use tyndall_dunes::wind_rose::{WindRose, threshold_speed_m_s};
+use tyndall_dunes::{DuneError, by_hand};
 
 /// Most bytes of a table of winds: a century of hourly ones.
 const MOST_TABLE_BYTES: u64 = 1 << 26;
@@ -20,6 +20,9 @@ pub enum DesertFileError {
     /// The height map cannot be read.
     #[error("desert.terrain: {0}")]
     Terrain(Box<IoError>),
+    /// What was written by hand cannot be used.
+    #[error(transparent)]
+    ByHand(#[from] DuneError),
     /// The table of winds cannot be read.
     #[error("desert.wind_table: {}: {problem}", path.display())]
     WindTable {
@@ -39,8 +42,16 @@ pub fn desert_inputs(scene: &Scene) -> Result<DesertInputs, DesertFileError> {
         return Ok(DesertInputs::default());
     }
     let terrain = scene.terrain_file().map(|path| terrain(scene, &path)).transpose()?;
-    let winds = scene.wind_table_file().map(|path| winds(scene, &path)).transpose()?;
-    Ok(DesertInputs { terrain: terrain.map(Arc::new), winds })
+    let measured = scene.wind_table_file().map(|path| winds(scene, &path)).transpose()?;
+    let by_hand = by_hand::parse_winds(&scene.desert.winds)?;
+    let by_hand = || WindSchedule::new(&by_hand, scene.dune_wind.period_steps);
+    let winds = match measured {
+        None if !scene.desert.winds.is_empty() => Some(by_hand()?),
+        measured => measured,
+    };
+    let strokes = by_hand::parse_strokes(&scene.desert.strokes)?;
+    let touches = by_hand::touches(&strokes, scene.dunes.cell_m, [scene.dunes.side.cells(); 2])?;
+    Ok(DesertInputs { terrain: terrain.map(Arc::new), winds, touches })
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "heights are kept as f32")]

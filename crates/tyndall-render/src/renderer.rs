@@ -12,7 +12,7 @@ use tyndall_scene::{Orders, OrdersDetail, Scene};
 
 use crate::aerial::{AerialRequest, AerialVolume};
 use crate::clouds::{CloudDrawData, CloudProgress, CloudRenderer, CloudSurroundings};
-use crate::desert::{DesertDrawData, DesertRenderer};
+use crate::desert::{DesertDrawData, DesertProgress, DesertRenderer};
 use crate::develop::DevelopRenderer;
 use crate::exposure::ev100_from_gain;
 use crate::frame::{frame_uniform, gpu_data};
@@ -296,9 +296,10 @@ impl Renderer {
         &self.landscape
     }
 
-    /// Chooses when the slow table of all orders and the clouds are made; at first the frame waits for them.
+    /// Chooses when the slow table of all orders, the clouds and the desert are made; at first the frame waits for them.
     pub fn set_table_building(&mut self, building: TableBuilding) {
         self.clouds.set_building(building.clone());
+        self.desert.set_building(building.clone());
         self.tables.set_building(building);
     }
 
@@ -306,6 +307,12 @@ impl Renderer {
     #[must_use]
     pub fn cloud_progress(&self) -> &CloudProgress {
         self.clouds.progress()
+    }
+
+    /// How the desert stands after the last frame.
+    #[must_use]
+    pub fn desert_progress(&self) -> &DesertProgress {
+        self.desert.progress()
     }
 
     /// How the table of all orders stands after the last frame.

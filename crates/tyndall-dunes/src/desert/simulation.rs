@@ -1,9 +1,11 @@
 //! The field of a scene: from its parameters to its steps, and what is asked of it.
 
 use super::ages::Ages;
+use super::by_hand::Touch;
 use super::inputs::DesertInputs;
 use super::params::DesertParams;
 use crate::DuneError;
+use crate::brush::check_stroke;
 use crate::direction::{DIRECTION_ONE, Direction};
 use crate::export::DuneMaps;
 use crate::simulation::SandSimulation as _;
@@ -15,6 +17,8 @@ pub struct DesertSimulation {
     params: DesertParams,
     inputs: DesertInputs,
     field: DuneField,
+    /// Touches by hand that have been made.
+    touched: usize,
     ages: Option<Ages>,
 }
 
@@ -33,7 +37,10 @@ impl DesertSimulation {
         if let Some(winds) = &inputs.winds {
             field.set_winds(winds.clone());
         }
-        Ok(Self { params: params.clone(), inputs: inputs.clone(), field, ages: None })
+        inputs.touches.iter().try_for_each(|touch| check_stroke(&touch.brush))?;
+        let mut simulation = Self { params: params.clone(), inputs: inputs.clone(), field, touched: 0, ages: None };
+        simulation.lay_hands_on();
+        Ok(simulation)
     }
 
     /// What it took from files.
@@ -62,11 +69,40 @@ impl DesertSimulation {
 
     /// Makes steps.
     pub fn advance(&mut self, steps: u32) {
-        let Some(ages) = &mut self.ages else { return self.field.run(steps) };
         for _ in 0..steps {
             self.field.step();
-            ages.observe(self.field.heights(), self.field.steps_done());
+            if let Some(ages) = &mut self.ages {
+                ages.observe(self.field.heights(), self.field.steps_done());
+            }
+            self.lay_hands_on();
         }
+    }
+
+    /// Makes the touches that are due.
+    fn lay_hands_on(&mut self) {
+        let now = self.field.steps_done();
+        while let Some(touch) = self.inputs.touches.get(self.touched).filter(|touch| touch.step <= now) {
+            // Strokes were checked at the start, so that none is refused.
+            drop(self.field.apply(&touch.brush));
+            self.touched += 1;
+        }
+    }
+
+    /// Touches that have been made.
+    pub(super) fn made_touches(&self) -> &[Touch] {
+        &self.inputs.touches[..self.touched]
+    }
+
+    /// Other touches from here on; those made so far must be the first ones.
+    pub(super) fn set_touches(&mut self, touches: Vec<Touch>) {
+        self.inputs.touches = touches;
+        self.lay_hands_on();
+    }
+
+    /// Counts the touches before a state's step as made.
+    pub(super) fn skip_touches(&mut self) {
+        let now = self.field.steps_done();
+        self.touched = self.inputs.touches.partition_point(|touch| touch.step <= now);
     }
 
     /// Notes from here on when each cell moves last. Steps become a little slower and make the same bits.

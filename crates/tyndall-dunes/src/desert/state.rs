@@ -96,6 +96,7 @@ impl DesertSimulation {
         });
         let moved_at = moved_at.transpose()?;
         self.field_mut().set_state(state)?;
+        self.skip_touches();
         self.set_moved_at(moved_at);
         Ok(())
     }

@@ -1,18 +1,21 @@
 //! Fields of dunes kept between runs, beside the sky's tables: thousands of steps are slow to make.
 //!
-//! Kept are heights, bedrock and mean heights as little-endian integers, so that a kept field is the one that was made, bit
-//! for bit, and goes on as it would have. Fields with plants or on terrain from a file are not kept.
+//! Kept are heights, bedrock, mean heights and the ledger as little-endian integers, so that a kept field is the one that was made, bit
+//! for bit, and goes on as it would have. Fields with plants, on terrain from a file or touched by hand are not kept.
 
 use tyndall_core::table_store::TableStore;
 use tyndall_dunes::slab::DuneState;
 use tyndall_dunes::{DesertInputs, DesertParams, DesertSimulation, DuneError, Ledger};
 
 /// Version of the steps: another one makes other fields.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
+
+/// Words of the ledger: six amounts of two.
+const LEDGER_WORDS: usize = 12;
 
 /// The text that a field is kept under; `None` for those that are not kept.
 pub(super) fn key(params: &DesertParams, inputs: &DesertInputs, steps: u32) -> Option<String> {
-    let keeps = !params.plants.enabled && inputs.terrain.is_none() && steps > 0;
+    let keeps = !params.plants.enabled && inputs.terrain.is_none() && inputs.touches.is_empty() && steps > 0;
     keeps.then(|| format!("field of dunes {VERSION}: {params:?}, {:?}, {steps} steps", inputs.winds))
 }
 
@@ -26,24 +29,31 @@ pub(super) fn load(
     let mut simulation = DesertSimulation::cold(params, inputs)?;
     let cells = simulation.field().heights().len();
     let words: Vec<i32> = bytes.as_chunks().0.iter().map(|word| i32::from_le_bytes(*word)).collect();
-    if words.len() != 3 * cells || bytes.len() != 12 * cells {
+    if words.len() != 3 * cells + LEDGER_WORDS || bytes.len() != 4 * words.len() {
         return Ok(None);
     }
     let part = |index: usize| words[index * cells..(index + 1) * cells].to_vec();
-    let mass = |heights: &[i32], rock: &[i32]| {
-        heights.iter().zip(rock).map(|(height, rock)| i64::from(height - rock)).sum::<i64>()
-    };
     let (heights, bedrock, means) = (part(0), part(1), part(2));
-    let ledger = Ledger { start: mass(&heights, &bedrock), ..Ledger::default() };
+    let ledger = ledger(&words[3 * cells..]);
     let state = DuneState { step: steps, heights, bedrock, means, plants: None, ledger };
     Ok(simulation.field_mut().set_state(state).is_ok().then_some(simulation))
+}
+
+/// Amounts from their low and high words.
+fn ledger(words: &[i32]) -> Ledger {
+    let amount = |index: usize| i64::from(words[2 * index].cast_unsigned()) | (i64::from(words[2 * index + 1]) << 32);
+    let [start, entered, left, brushed_on, brushed_off, abraded] = [0, 1, 2, 3, 4, 5].map(amount);
+    Ledger { start, entered, left, brushed_on, brushed_off, abraded }
 }
 
 /// Keeps a field.
 pub(super) fn store(store: &dyn TableStore, key: &str, simulation: &DesertSimulation) {
     let state = simulation.field().state();
     let words = state.heights.iter().chain(&state.bedrock).chain(&state.means);
-    store.store(key, &words.flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>());
+    let Ledger { start, entered, left, brushed_on, brushed_off, abraded } = state.ledger;
+    let amounts = [start, entered, left, brushed_on, brushed_off, abraded];
+    let bytes = words.flat_map(|word| word.to_le_bytes()).chain(amounts.into_iter().flat_map(i64::to_le_bytes));
+    store.store(key, &bytes.collect::<Vec<u8>>());
 }
 
 #[cfg(test)]

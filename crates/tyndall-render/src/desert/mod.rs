@@ -8,11 +8,14 @@
 //! Not done: ripples do not change the outline of the sand or cast shadows; the moon does not light it.
 
 pub mod bed;
+mod building;
 pub mod gpu_data;
 mod kept;
 mod light;
+mod maker;
 pub mod mesh;
 pub mod reflection;
+pub mod report;
 pub mod ripple_tile;
 pub mod smooth;
 mod source;
@@ -26,13 +29,14 @@ use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, RenderPipeline, Rende
 use tyndall_scene::Scene;
 
 use crate::landscape::LandscapeSurroundings;
-use crate::sky::SkyLightReach;
+use crate::sky::{SkyLightReach, TableBuilding};
 use crate::target::DEPTH_FORMAT;
 use crate::{RenderError, RendererConfig, View};
 use bed::Bed;
 use gpu_data::Desert;
 use mesh::DesertMesh;
 use source::BedSource;
+pub use source::DesertProgress;
 use textures::{BedTextures, light_texture, sampler, tile_textures};
 
 /// Bytes of a vertex.
@@ -111,6 +115,17 @@ impl DesertRenderer {
     /// Chooses where simulated fields are kept between runs; nowhere unless chosen.
     pub fn set_store(&mut self, store: Option<Arc<dyn TableStore>>) {
         self.source.set_store(store);
+    }
+
+    /// Chooses when the desert is simulated; at first the frame waits for it.
+    pub fn set_building(&mut self, building: TableBuilding) {
+        self.source.set_building(building);
+    }
+
+    /// How the desert stands after the last frame.
+    #[must_use]
+    pub fn progress(&self) -> &DesertProgress {
+        self.source.progress()
     }
 
     /// Simulates the scene's desert up to its step, and forgets the last one when the scene has none.

@@ -1,91 +1,106 @@
-//! The bed and the tile of ripples of a scene, made again when what they follow from has changed.
+//! The bed and the tile of ripples that frames show, asked for again when what they follow from has changed.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use tyndall_core::table_store::TableStore;
-use tyndall_dunes::{DesertParams, DesertSimulation};
-use tyndall_scene::{DesertSceneParams, RippleParams, Scene};
+use tyndall_scene::Scene;
 
 use super::bed::Bed;
-use super::kept;
+use super::building::Making;
+use super::maker::{BedRequest, MadeBed};
+use super::report::DesertReport;
 use super::ripple_tile::RippleTile;
 use crate::RenderError;
-use crate::desert_inputs::desert_inputs;
+use crate::sky::TableBuilding;
 
-/// What a bed follows from.
-type Wanted = (DesertParams, DesertSceneParams, PathBuf);
+/// How the desert stands after a frame.
+#[derive(Clone, Debug, Default)]
+pub struct DesertProgress {
+    /// Whether the sand shown is not yet that of the scene.
+    pub building: bool,
+    /// Figures of the sand shown; `None` without any.
+    pub report: Option<Arc<DesertReport>>,
+    /// The bed shown, to find places on it; `None` without one.
+    pub bed: Option<Arc<Bed>>,
+}
 
 /// Bed and ripples of the last scene.
 #[derive(Debug, Default)]
 pub(super) struct BedSource {
+    making: Making,
     store: Option<Arc<dyn TableStore>>,
-    simulation: Option<DesertSimulation>,
-    bed: Option<(Wanted, Bed)>,
-    tile: Option<((RippleParams, u32), RippleTile)>,
+    shown: Option<(BedRequest, MadeBed)>,
+    /// What could not be made, and why.
+    refused: Option<(BedRequest, Arc<RenderError>)>,
     revisions: [u64; 2],
+    progress: DesertProgress,
 }
 
 impl BedSource {
-    /// Chooses where fields are kept between runs.
-    pub(super) fn set_store(&mut self, store: Option<Arc<dyn TableStore>>) {
-        self.store = store;
+    /// Chooses who makes beds; what is shown stays.
+    pub(super) fn set_building(&mut self, building: TableBuilding) {
+        self.making = Making::new(building);
+        self.making.set_store(self.store.clone());
     }
 
-    /// Makes what the scene needs.
+    /// Chooses where fields are kept between runs.
+    pub(super) fn set_store(&mut self, store: Option<Arc<dyn TableStore>>) {
+        self.store.clone_from(&store);
+        self.making.set_store(store);
+    }
+
+    /// Takes what the scene needs: the bed before, where a thread is still at this one.
     pub(super) fn update(&mut self, scene: &Scene) -> Result<(), RenderError> {
-        let Some(params) = scene.dune_params() else {
-            (self.bed, self.tile) = (None, None);
+        let Some(request) = BedRequest::of(scene) else {
+            self.making.cancel();
+            (self.shown, self.progress) = (None, DesertProgress::default());
             return Ok(());
         };
-        let wanted = (params, scene.desert.clone(), scene.folder.to_path_buf());
-        if self.bed.as_ref().is_none_or(|(held, _)| *held != wanted) {
-            let simulation = self.simulate(scene, &wanted.0)?;
-            let bed = Bed::new(&simulation)?;
-            (self.simulation, self.bed) = (Some(simulation), Some((wanted, bed)));
-            self.revisions[0] += 1;
+        let is_refused = self.refused.as_ref().is_some_and(|(refused, _)| *refused == request);
+        if let Some((request, made)) = self.making.next((!self.shows(&request) && !is_refused).then_some(&request)) {
+            match made {
+                Ok(made) => self.show(request, made),
+                Err(error) => self.refused = Some((request, Arc::new(error))),
+            }
         }
-        let wanted = (scene.ripples.clone(), scene.desert.ripple_steps);
-        if self.tile.as_ref().is_none_or(|(held, _)| *held != wanted) {
-            let tile = RippleTile::new(&wanted.0, wanted.1)?;
-            self.tile = Some((wanted, tile));
-            self.revisions[1] += 1;
+        let made = self.shown.as_ref().map(|(_, made)| made);
+        self.progress = DesertProgress {
+            building: !self.shows(&request),
+            report: made.map(|made| Arc::clone(&made.report)),
+            bed: made.map(|made| Arc::clone(&made.bed)),
+        };
+        if let Some((_, error)) = self.refused.as_ref().filter(|(refused, _)| *refused == request) {
+            self.progress.building = false;
+            return Err(RenderError::Refused(Arc::clone(error)));
         }
         Ok(())
     }
 
-    /// The field at the scene's step: the last one goes on, a kept one is taken, or it starts anew.
-    fn simulate(&mut self, scene: &Scene, params: &DesertParams) -> Result<DesertSimulation, RenderError> {
-        let (inputs, steps) = (desert_inputs(scene)?, scene.desert.steps);
-        let goes_on = |known: &DesertSimulation| {
-            known.params() == params && known.inputs() == &inputs && known.step_count() <= steps
-        };
-        if let Some(mut known) = self.simulation.take().filter(goes_on) {
-            known.advance(steps - known.step_count());
-            return Ok(known);
-        }
-        let kept = self.store.as_deref().zip(kept::key(params, &inputs, steps));
-        if let Some((store, key)) = &kept
-            && let Some(simulation) = kept::load(*store, key, (params, &inputs, steps))?
-        {
-            return Ok(simulation);
-        }
-        let mut simulation = DesertSimulation::cold(params, &inputs)?;
-        simulation.advance(steps);
-        if let Some((store, key)) = kept {
-            kept::store(store, &key, &simulation);
-        }
-        Ok(simulation)
+    /// Whether a request is shown, and not only what was made on the way to it.
+    fn shows(&self, request: &BedRequest) -> bool {
+        let is_done = |(shown, made): &(BedRequest, MadeBed)| shown == request && made.report.step == shown.steps();
+        self.shown.as_ref().is_some_and(is_done)
     }
 
-    /// The bed of the last scene.
+    fn show(&mut self, request: BedRequest, made: MadeBed) {
+        let known = self.shown.as_ref().is_some_and(|(_, before)| Arc::ptr_eq(&before.tile, &made.tile));
+        self.revisions = [self.revisions[0] + 1, self.revisions[1] + u64::from(!known)];
+        self.shown = Some((request, made));
+    }
+
+    /// How it stands since the last update.
+    pub(super) fn progress(&self) -> &DesertProgress {
+        &self.progress
+    }
+
+    /// The bed shown.
     pub(super) fn bed(&self) -> Option<&Bed> {
-        self.bed.as_ref().map(|(_, bed)| bed)
+        self.shown.as_ref().map(|(_, made)| &*made.bed)
     }
 
     /// Its ripples.
     pub(super) fn tile(&self) -> Option<&RippleTile> {
-        self.tile.as_ref().map(|(_, tile)| tile)
+        self.shown.as_ref().map(|(_, made)| &*made.tile)
     }
 
     /// Numbers that change with the bed and with the ripples.

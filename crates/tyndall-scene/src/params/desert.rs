@@ -34,6 +34,12 @@ params! {
         /// Height map of the rock under the sand, relative to the scene's file: .png, .exr, .r16 or .r32, stretched over the
         /// field, its lowest place at the level of the ground. Empty for level ground.
         terrain = "", "design";
+        /// Winds by hand in place of those of `dune_wind`: where each blows to, anticlockwise from east in degrees, and its
+        /// share of the sand that is moved, as `0 1; 120 0.5`. The period is that of `dune_wind`. Empty for none.
+        winds = "", "design";
+        /// Strokes by hand: step, tool (add, dig, flatten, walk), radius in m, depth in m or share flattened, and a path in m
+        /// east and north of the field's middle, as `700 dig 6 0.4 10 -20 14 -22; ...`. Empty for none.
+        strokes = "", "design";
         /// Table of measured winds (.csv) in place of the winds of `dune_wind`, relative to the scene's file: columns
         /// `direction_deg` (where the wind comes from, clockwise from north) and `speed_m_s`, if need be `weight`. The period is
         /// that of `dune_wind`. Empty for none.
