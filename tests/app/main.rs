@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod clouds;
+mod desert;
 mod device_loss;
 mod documents;
 mod exports;

@@ -57,7 +57,7 @@ impl Eye {
 
     /// Where a place (m) is seen; `None` behind the camera.
     #[expect(clippy::cast_possible_truncation, reason = "points on a screen")]
-    fn point(&self, place: DVec3) -> Option<Pos2> {
+    pub(crate) fn point(&self, place: DVec3) -> Option<Pos2> {
         let away = place - self.frame.position;
         let found = match self.frame.orthographic_m {
             None => self.frame.point_px(away.try_normalize()?, self.size())?,
@@ -70,11 +70,16 @@ impl Eye {
         Some(self.rect.min + vec2(found.x as f32, found.y as f32) / self.scale)
     }
 
-    /// Where the line of sight through a point meets an altitude (m east and north); `None` when it does not.
-    pub(crate) fn at_altitude(&self, point: Pos2, altitude_m: f64) -> Option<[f64; 2]> {
+    /// Start (m) and direction of the line of sight through a point.
+    pub(crate) fn sight(&self, point: Pos2) -> (DVec3, DVec3) {
         let offset = (point - self.rect.min) * self.scale;
         let pixel = glam::dvec2(f64::from(offset.x), f64::from(offset.y));
-        let (eye, direction) = (self.frame.eye(pixel, self.size()), self.frame.ray(pixel, self.size()));
+        (self.frame.eye(pixel, self.size()), self.frame.ray(pixel, self.size()))
+    }
+
+    /// Where the line of sight through a point meets an altitude (m east and north); `None` when it does not.
+    pub(crate) fn at_altitude(&self, point: Pos2, altitude_m: f64) -> Option<[f64; 2]> {
+        let (eye, direction) = self.sight(point);
         let distance = (altitude_m - eye.z) / direction.z;
         let place = eye + direction * distance;
         (distance.is_finite() && distance > 0.0).then_some([place.x, place.y])

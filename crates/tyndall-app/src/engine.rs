@@ -15,6 +15,7 @@ use tyndall_io::TableFolder;
 use tyndall_render::{
     FrameTarget, RenderError, Renderer, RendererConfig,
     clouds::CloudProgress,
+    desert::DesertProgress,
     sky::{TableBuilding, TableProgress, Wake},
 };
 use tyndall_scene::Scene;
@@ -112,9 +113,14 @@ impl Engine {
         self.renderer.cloud_progress()
     }
 
+    /// How the desert stands.
+    pub(crate) fn desert(&self) -> &DesertProgress {
+        self.renderer.desert_progress()
+    }
+
     /// Whether something is being made that a later frame will show.
     pub(crate) fn is_building(&self) -> bool {
-        self.tables().building || self.clouds().building
+        self.tables().building || self.clouds().building || self.desert().building
     }
 
     /// Whether drawing the same scene again would show more.

@@ -10,6 +10,7 @@ pub(crate) enum Pane {
     Camera,
     Time,
     Clouds,
+    Desert,
     Export,
     Gallery,
     Plots,
@@ -20,12 +21,13 @@ pub(crate) enum Pane {
 
 impl Pane {
     /// All, in the order of the menu.
-    pub(crate) const ALL: [Self; 11] = [
+    pub(crate) const ALL: [Self; 12] = [
         Self::Viewport,
         Self::Parameters,
         Self::Camera,
         Self::Time,
         Self::Clouds,
+        Self::Desert,
         Self::Export,
         Self::Gallery,
         Self::Plots,
@@ -42,6 +44,7 @@ impl Pane {
             Self::Camera => "Camera",
             Self::Time => "Date and place",
             Self::Clouds => "Clouds",
+            Self::Desert => "Desert",
             Self::Export => "Export",
             Self::Gallery => "Gallery",
             Self::Plots => "Plots",
@@ -68,7 +71,7 @@ pub(crate) fn default_tree() -> Tree<Pane> {
     let view = tabs(&mut tiles, &[Pane::Viewport]);
     let below = tabs(&mut tiles, &[Pane::Gallery, Pane::Plots, Pane::Accuracy, Pane::Timings, Pane::Log]);
     let parameters = tabs(&mut tiles, &[Pane::Parameters]);
-    let camera = tabs(&mut tiles, &[Pane::Camera, Pane::Time, Pane::Clouds, Pane::Export]);
+    let camera = tabs(&mut tiles, &[Pane::Camera, Pane::Time, Pane::Clouds, Pane::Desert, Pane::Export]);
     let split = |tiles: &mut Tiles<Pane>, dir, parts, share| {
         let linear = Linear::new_binary(dir, parts, share);
         tiles.insert_new(Tile::Container(Container::Linear(linear)))

@@ -83,6 +83,10 @@ fn desert(scene: &Scene, group: &str, name: &str) -> Option<&'static str> {
         ("desert", "grain_um" | "wind_sectors") if !has_table => {
             Some("The winds are those of dune wind; name a table in Wind table.")
         }
+        ("desert", "winds") if has_table => Some("The winds come from a table; leave Wind table empty."),
+        ("dune_wind", name) if name != "period_steps" && !scene.desert.winds.is_empty() && !has_table => {
+            Some("The winds are by hand; leave Winds of the desert empty.")
+        }
         ("dune_wind", name) if name != "period_steps" && has_table => {
             Some("The winds come from a table; leave Wind table empty.")
         }

@@ -134,6 +134,12 @@ impl Stage {
         !self.is_simulating() || self.engine().is_some_and(Engine::has_news)
     }
 
+    /// Whether the next step of the desert can be asked for: those before are there, if not yet shown.
+    pub(crate) fn takes_sand(&self) -> bool {
+        let is_simulating = self.problem.is_none() && self.engine().is_some_and(|engine| engine.desert().building);
+        !is_simulating || self.engine().is_some_and(Engine::has_news)
+    }
+
     /// Whether clouds have been simulated for so long that the user should know; asks to be asked again where that is near.
     pub(crate) fn is_simulating_long(&mut self, ctx: &egui::Context) -> bool {
         let now_s = ctx.input(|input| input.time);

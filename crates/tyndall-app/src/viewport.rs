@@ -7,7 +7,10 @@ use tyndall_scene::{Scene, camera::CameraFrame};
 use crate::{
     bubble_handles,
     cloud_tools::CloudTools,
+    desert_tools::DesertTools,
+    engine::Engine,
     navigation::{DragTool, navigate},
+    sand_brush,
     sky_probe::Sight,
     stage::Stage,
 };
@@ -49,7 +52,7 @@ pub(crate) fn show(
     ui: &mut Ui,
     stage: &mut Stage,
     scene: &mut Scene,
-    (options, tools): (&ViewportOptions, &mut CloudTools),
+    (options, tools, sand): (&ViewportOptions, &mut CloudTools, &mut DesertTools),
     is_playing: bool,
 ) -> Option<Sight> {
     let size_pt = ui.available_size().max(Vec2::splat(1.0));
@@ -61,9 +64,12 @@ pub(crate) fn show(
         response.request_focus();
     }
 
+    let bed = stage.engine().map(Engine::desert).and_then(|desert| desert.bed.clone());
     let primary_down = ui.input(|input| input.pointer.primary_down());
     let flying = if tools.paints(scene) && primary_down && response.is_pointer_button_down_on() {
         bubble_handles::paint(ui, &response, scene, tools);
+        false
+    } else if sand_brush::show(ui, &response, scene, sand, bed.as_deref()) && sand.active(scene).is_some() {
         false
     } else {
         navigate(ui, &response, &mut scene.camera, options.tool)
@@ -81,6 +87,9 @@ pub(crate) fn show(
     overlay(ui, rect, stage, scene, options);
     if tools.moves_bubbles(scene) {
         bubble_handles::show(ui, rect, scene, tools);
+    }
+    if let (Some(bed), Some(_), Some(pointer)) = (&bed, sand.active(scene), response.hover_pos()) {
+        sand_brush::ring(ui, rect, scene, sand, bed, pointer);
     }
     if stage.is_simulating_long(ui.ctx()) && !is_playing {
         label(ui, rect.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP, "Simulating clouds...");

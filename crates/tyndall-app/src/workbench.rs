@@ -3,11 +3,13 @@
 use egui::{Frame, Margin, Ui, WidgetText};
 use egui_tiles::{Behavior, SimplificationOptions, TileId, UiResponse};
 use tracing::Level;
-use tyndall_scene::{CloudKind, Preset};
+use tyndall_scene::{CloudKind, DesertKind, Preset};
 
 use crate::{
     cloud_clock::CloudClock,
     cloud_tools::CloudTools,
+    desert_clock::DesertClock,
+    desert_tools::DesertTools,
     document::Document,
     engine::Engine,
     error_meter::{ErrorMeter, Thoroughness},
@@ -16,7 +18,7 @@ use crate::{
     layout::Pane,
     logging::LogBuffer,
     panels::{
-        camera, clouds,
+        camera, clouds, desert,
         export::{self, Exports},
         gallery::Gallery,
         log, parameters, plots,
@@ -50,7 +52,10 @@ pub(crate) struct Workbench {
     pub(crate) time: TimePanel,
     /// Whether the clouds move.
     pub(crate) clouds: CloudClock,
+    /// Whether the wind blows over the desert.
+    pub(crate) desert: DesertClock,
     cloud_tools: CloudTools,
+    desert_tools: DesertTools,
     probe: SkyProbe,
     meter: ErrorMeter,
     thoroughness: Thoroughness,
@@ -75,7 +80,9 @@ impl Workbench {
             chosen: None,
             time: TimePanel::default(),
             clouds: CloudClock::default(),
+            desert: DesertClock::default(),
             cloud_tools: CloudTools::default(),
+            desert_tools: DesertTools::default(),
             probe: SkyProbe::default(),
             meter: ErrorMeter::default(),
             thoroughness: Thoroughness::default(),
@@ -96,6 +103,7 @@ impl Workbench {
         self.document = document;
         self.time.playback.is_playing = false;
         self.clouds.is_playing = false;
+        self.desert.is_playing = false;
     }
 
     /// Lets the time of the scene run while it plays.
@@ -105,6 +113,21 @@ impl Workbench {
             ctx.request_repaint();
         }
         self.run_clouds(ctx);
+        self.run_desert(ctx);
+    }
+
+    /// Lets the wind blow over the desert while it plays.
+    fn run_desert(&mut self, ctx: &egui::Context) {
+        let scene = self.document.scene_mut();
+        self.desert.is_playing &= scene.desert.kind == DesertKind::Dunes;
+        let is_ready = self.stage.as_ref().is_none_or(Stage::takes_sand);
+        let progress = self.stage.as_ref().and_then(Stage::engine).map(Engine::desert);
+        let most = progress.map_or(1, desert::steps_at_once);
+        let ends = (most, desert::last_step(scene));
+        self.desert.run(&mut scene.desert.steps, ends, ctx.input(|input| input.time), is_ready);
+        if self.desert.is_playing && is_ready {
+            ctx.request_repaint();
+        }
     }
 
     /// Lets the time of the clouds run while they play.
@@ -122,9 +145,14 @@ impl Workbench {
             ui.label("This window has no graphics device.");
             return;
         };
-        let is_playing = self.time.playback.is_playing || self.clouds.is_playing;
-        let pointed =
-            viewport::show(ui, stage, self.document.scene_mut(), (&self.viewport, &mut self.cloud_tools), is_playing);
+        let is_playing = self.time.playback.is_playing || self.clouds.is_playing || self.desert.is_playing;
+        let pointed = viewport::show(
+            ui,
+            stage,
+            self.document.scene_mut(),
+            (&self.viewport, &mut self.cloud_tools, &mut self.desert_tools),
+            is_playing,
+        );
         self.cursor = pointed.or(self.cursor);
     }
 
@@ -138,6 +166,10 @@ impl Workbench {
             Pane::Clouds => {
                 let progress = stage.as_ref().and_then(Stage::engine).map(Engine::clouds);
                 clouds::show(ui, document.scene_mut(), (&mut self.clouds, &mut self.cloud_tools), progress);
+            }
+            Pane::Desert => {
+                let progress = stage.as_ref().and_then(Stage::engine).map(Engine::desert);
+                desert::show(ui, document.scene_mut(), (&mut self.desert, &mut self.desert_tools), progress);
             }
             Pane::Export => export::show(ui, document, &mut self.export, exports, dialogs),
             Pane::Gallery => self.chosen = stage.as_ref().and_then(|stage| self.gallery.show(ui, stage)),

@@ -75,7 +75,7 @@ fn ms(time: std::time::Duration) -> f64 {
 }
 
 /// A number in groups of three digits.
-fn thousands(number: u64) -> String {
+pub(super) fn thousands(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {

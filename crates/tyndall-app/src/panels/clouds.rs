@@ -143,7 +143,7 @@ fn transport(ui: &mut Ui, scene: &mut Scene, playing: &mut CloudClock) {
 }
 
 /// A button with a sign; whether it was clicked.
-fn sign(ui: &mut Ui, sign: Sign, name: &str, hint: &str) -> bool {
+pub(super) fn sign(ui: &mut Ui, sign: Sign, name: &str, hint: &str) -> bool {
     let button = ui.add(Button::new("").min_size(vec2(SIGN_PT, SIGN_PT)));
     rename(ui, &button, name);
     signs::paint(ui, &button, sign);
@@ -157,7 +157,7 @@ pub(crate) fn last_time_s(scene: &Scene) -> f64 {
 }
 
 /// Looks random and comes back to no seed before all others were there.
-fn another_seed(seed: u32) -> u32 {
+pub(super) fn another_seed(seed: u32) -> u32 {
     // A full-period generator modulo 10000 (Hull and Dobell), so that seeds stay short.
     (seed % 10_000 * 7_421 + 2_113) % 10_000
 }

@@ -3,6 +3,8 @@
 pub(crate) mod camera;
 mod cloud_figures;
 pub(crate) mod clouds;
+pub(crate) mod desert;
+mod desert_figures;
 pub(crate) mod dial;
 pub(crate) mod export;
 pub(crate) mod gallery;
@@ -10,6 +12,7 @@ pub(crate) mod group;
 pub(crate) mod log;
 pub(crate) mod parameters;
 pub(crate) mod plots;
+mod rose;
 pub(crate) mod row;
 mod signs;
 mod sky_map;
