@@ -36,14 +36,24 @@ pub fn gaussian_blur(grid: &HeightGrid, sigma_cells: f64) -> HeightGrid {
     let radius = (3.0 * sigma_cells).ceil() as isize;
     let weights: Vec<f64> = (-radius..=radius).map(|i| (-0.5 * (i as f64 / sigma_cells).powi(2)).exp()).collect();
     let total: f64 = weights.iter().sum();
-    let along = |source: &HeightGrid, step: [isize; 2]| {
-        let blurred = source.cells().map(|[x, y]| {
-            let taps = (-radius..=radius).zip(&weights);
-            (taps.map(|(i, weight)| weight * source.at(x + i * step[0], y + i * step[1])).sum::<f64>() / total) as f32
-        });
-        HeightGrid { size: source.size, heights: blurred.collect() }
+    let weights: Vec<f64> = weights.iter().map(|weight| weight / total).collect();
+    let [nx, ny] = grid.size.map(usize::cast_signed);
+    let row = |y: isize| {
+        let start = (y.rem_euclid(ny) * nx).cast_unsigned();
+        &grid.heights[start..start + grid.size[0]]
     };
-    along(&along(grid, [1, 0]), [0, 1])
+    // Whole rows at a time, so that processors add several columns at once.
+    let mut heights = Vec::with_capacity(grid.heights.len());
+    for y in 0..ny {
+        let mut column = vec![0.0; grid.size[0]];
+        for (offset, weight) in (-radius..=radius).zip(&weights) {
+            column.iter_mut().zip(row(y + offset)).for_each(|(sum, &height)| *sum += weight * f64::from(height));
+        }
+        let periodic: Vec<f64> = (-radius..nx + radius).map(|x| column[x.rem_euclid(nx).cast_unsigned()]).collect();
+        let blurred = periodic.windows(weights.len()).map(|taps| taps.iter().zip(&weights).map(|(a, b)| a * b).sum());
+        heights.extend(blurred.map(|height: f64| height as f32));
+    }
+    HeightGrid { size: grid.size, heights }
 }
 
 #[cfg(test)]
