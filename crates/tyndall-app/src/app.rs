@@ -216,7 +216,8 @@ impl App {
     /// Undo points, recovery, title: what follows from a change once it rests.
     fn follow_up(&mut self, ctx: &egui::Context) {
         let now_s = ctx.input(|input| input.time);
-        if self.bench.document.watch(now_s) {
+        // A stroke is undone as a whole, even one that has paused.
+        if self.bench.is_in_stroke() || self.bench.document.watch(now_s) {
             ctx.request_repaint_after(REST);
         } else {
             self.keep_for_recovery();

@@ -70,6 +70,11 @@ impl DesertTools {
         }
     }
 
+    /// Whether a stroke is under way.
+    pub(crate) fn is_held(&self) -> bool {
+        self.is_held
+    }
+
     /// Ends a stroke.
     pub(crate) fn let_go(&mut self) {
         self.is_held = false;

@@ -98,6 +98,11 @@ impl Workbench {
         stage.is_some_and(|stage| stage.is_building() || stage.awaits_timings()) || self.probe.is_busy()
     }
 
+    /// Whether a brush is on the sand.
+    pub(crate) fn is_in_stroke(&self) -> bool {
+        self.desert_tools.is_held()
+    }
+
     /// Another document: what moves on its own stops.
     pub(crate) fn replace_document(&mut self, document: Document) {
         self.document = document;
