@@ -312,6 +312,15 @@ pub(crate) const ALL: &[Precondition] = &[
         ],
     },
     Precondition {
+        name: "sand at one's feet under a low sun",
+        prepare: |scene| {
+            dunes(scene);
+            (scene.camera.altitude_m, scene.camera.pitch_deg, scene.camera.heading_deg) = (1.0, -30.0, 120.0);
+            (scene.sun.elevation_deg, scene.sun.azimuth_deg) = (25.0, 120.0);
+        },
+        parameters: &[("sand.glints", Some(0.0))],
+    },
+    Precondition {
         name: "a small field of dunes",
         prepare: dunes,
         parameters: &[
@@ -353,7 +362,6 @@ pub(crate) const ALL: &[Precondition] = &[
             ("sand.blue", Some(0.6)),
             ("sand.roughness_deg", Some(45.0)),
             ("sand.shine", Some(4.0)),
-            ("sand.glints", Some(0.0)),
             ("sand.ripples", None),
             ("sand.ripple_length_m", Some(1.0)),
             ("sand.ripple_index", Some(5.0)),
@@ -392,7 +400,7 @@ pub(crate) const ALL: &[Precondition] = &[
         parameters: &[
             ("desert.terrain_low_m", Some(-20.0)),
             ("desert.terrain_high_m", Some(12.0)),
-            ("desert.grain_um", Some(1500.0)),
+            ("desert.grain_um", Some(500.0)),
             ("desert.wind_sectors", Some(1.0)),
         ],
     },
