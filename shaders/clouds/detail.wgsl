@@ -21,11 +21,8 @@ fn cloud_billow_level(footprint: f32) -> f32 {
     return log2(max(footprint * CLOUD_TILE_TEXELS / CLOUD_TILE_CELLS, 1.0));
 }
 
-/// Share of cloud with turbulence, of what the cells have at a place in cells.
+/// Share of cloud with turbulence, the same without any (detail 0) and deep in a cloud (share 1), of what the cells have at a place in cells.
 fn cloud_detailed(share: f32, place: vec3<f32>, level: f32) -> f32 {
-    if ((clouds.detail <= 0.0) | (share >= 1.0)) {
-        return share;
-    }
     let at = CLOUD_TURN * (place - vec3<f32>(clouds.drift_cells, 0.0)) / CLOUD_TILE_CELLS;
     let noise = textureSampleLevel(cloud_billows, cloud_billow_sampler, at, min(level, CLOUD_LAST_LEVEL)).x;
     let softness = max(1.0 - clouds.detail * clamp(CLOUD_LAST_LEVEL + 1.0 - level, 0.0, 1.0), CLOUD_SHARPEST);

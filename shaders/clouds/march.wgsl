@@ -79,7 +79,7 @@ struct CloudPiece {
     distance_m: f32,  // of the place
     length_m: f32,
     share: f32,       // of full extinction
-    level: f32,       // mip level of turbulence
+    level: f32,       // whole mip level of turbulence, the finer and the coarser one in turns
     next_m: f32,      // where to go on
 }
 
@@ -103,7 +103,7 @@ fn cloud_next(direction: vec3<f32>, start_m: f32, end_m: f32, stretch: f32, jitt
         let skip_m = cloud_skip(piece.place) * clouds.cell_m / steepest;
         piece.next_m = t + max(skip_m, piece.length_m);
         if (skip_m <= piece.length_m) {
-            piece.level = cloud_billow_level(piece.distance_m * texel_angle);
+            piece.level = floor(cloud_billow_level(piece.distance_m * texel_angle) + jitter);
             piece.share = cloud_share(piece.place);
             if (piece.share > 0.0) {
                 piece.share = cloud_detailed(piece.share, piece.place, piece.level);

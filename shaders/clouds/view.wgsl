@@ -42,11 +42,16 @@ fn cloud_lamp_irradiance(direction: vec3<f32>, t: f32, h: f32) -> Spectrum {
 
 /// Radiance (cd/m^2) of moonlit sky and ground around a cloud; of moonlight on the ground at sea level.
 fn cloud_moonlit(direction: vec3<f32>, t: f32, h: f32, light: CloudLight, below: f32) -> vec3<f32> {
-    let mu = mu_along(atmosphere.planet_radius_m, sky_view.observer_altitude_m, moon.direction.z, dot(direction, moon.direction), t, h);
-    let sky = ground_sky_irradiance(mu);
-    let ground = spectrum_mul(atmosphere.ground_albedo, spectrum_add(sky, ground_sun_irradiance(mu)));
-    let around = spectrum_add(spectrum_scale(sky, light.sky), spectrum_scale(ground, below * light.ground));
-    return f32(moon.skylight) / SKY_PI * atmosphere_rec709(spectrum_mul(moon.light, around));
+    var radiance = vec3<f32>(0.0);
+    // A loop, as software adapters run both sides of a branch.
+    for (var nights = moon.skylight; nights > 0u; nights--) { // loops: 1
+        let mu = mu_along(atmosphere.planet_radius_m, sky_view.observer_altitude_m, moon.direction.z, dot(direction, moon.direction), t, h);
+        let sky = ground_sky_irradiance(mu);
+        let ground = spectrum_mul(atmosphere.ground_albedo, spectrum_add(sky, ground_sun_irradiance(mu)));
+        let around = spectrum_add(spectrum_scale(sky, light.sky), spectrum_scale(ground, below * light.ground));
+        radiance += atmosphere_rec709(spectrum_mul(moon.light, around)) / SKY_PI;
+    }
+    return radiance;
 }
 
 /// Radiance (cd/m^2) of a cloud where it is: sun or moon, the sky above and the ground in the clouds' shade below.
@@ -57,9 +62,9 @@ fn cloud_radiance(direction: vec3<f32>, light: CloudLight, pixel: vec2<u32>) -> 
     let h = min(altitude_along(radius, h0, direction.z, t), atmosphere.top_altitude_m);
     let mu_sun = mu_along(radius, h0, sky_view.sun_direction.z, sky_sun_cosine(direction), t, h);
     let below = cloud_shade_of_ground(frame.position_m.xy + t * direction.xy, h);
-    let sky = sky_light_irradiance(h, mu_sun, 1.0, 0.0, mu_sun) / SKY_PI;
-    let ground = below * sky_light_irradiance(h, mu_sun, -1.0, 0.0, -mu_sun) / SKY_PI;
-    let ambient = light.sky * sky + light.ground * ground + cloud_moonlit(direction, t, h, light, below);
+    let level = sky_light_level(h, mu_sun);
+    let daylit = (light.sky * level.up + below * light.ground * level.down) / SKY_PI;
+    let ambient = daylit + cloud_moonlit(direction, t, h, light, below);
     // Light from behind the cloud that was scattered a little: as bright as what is there, of the sky without discs and stars.
     let open = sky_view_radiance(sky_view_angles(direction), sky_sun_cosine(direction)) + moon_sky_radiance(direction);
     let things = textureLoad(cloud_behind, pixel, 0).xyz / frame.pre_exposure;

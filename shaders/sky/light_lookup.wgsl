@@ -21,6 +21,22 @@ fn sky_light_sun(h: f32, mu_sun: f32) -> vec3<f32> {
     return sky_light_layer(h, mu_sun, 0u);
 }
 
+/// Light (lx, linear Rec.709) on level surfaces.
+struct SkyLightLevel {
+    up: vec3<f32>,   // on one that faces up
+    down: vec3<f32>,
+}
+
+/// Light of sky and ground on level surfaces: [`sky_light_irradiance`], most terms of which are 0 there.
+fn sky_light_level(h: f32, mu_sun: f32) -> SkyLightLevel {
+    let x = mu_sun * mu_sun;
+    var even = sky_light_layer(h, mu_sun, 1u) * ORDERS_NORMS[0] + sky_light_layer(h, mu_sun, 4u) * ORDERS_NORMS[3];
+    even += sky_light_layer(h, mu_sun, 7u) * ORDERS_NORMS[10];
+    even += sky_light_layer(h, mu_sun, 12u) * ((((231.0 * x - 315.0) * x + 105.0) * x - 5.0) / 16.0);
+    let odd = sky_light_layer(h, mu_sun, 2u) * ORDERS_NORMS[1];
+    return SkyLightLevel(max(even + odd, vec3<f32>(0.0)), max(even - odd, vec3<f32>(0.0)));
+}
+
 /// Light of sky and ground on a surface (lx, linear Rec.709): zenith cosine of its normal, cosine of the normal's azimuth
 /// from the sun, and cosine between normal and sun.
 fn sky_light_irradiance(h: f32, mu_sun: f32, mu: f32, cos_phi: f32, nu: f32) -> vec3<f32> {

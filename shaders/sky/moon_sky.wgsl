@@ -6,9 +6,16 @@
 
 /// Radiance (cd/m^2) of moonlit air in a direction.
 fn moon_sky_radiance(direction: vec3<f32>) -> vec3<f32> {
-    if (moon.skylight == 0u) {
-        return vec3<f32>(0.0);
+    var radiance = vec3<f32>(0.0);
+    // A loop, as software adapters run both sides of a branch.
+    for (var nights = moon.skylight; nights > 0u; nights--) { // loops: 1
+        radiance += moon_sky_lookup(direction);
     }
+    return radiance;
+}
+
+/// The table's radiance (cd/m^2) in a direction.
+fn moon_sky_lookup(direction: vec3<f32>) -> vec3<f32> {
     let across = abs(direction.x * moon.direction.y - direction.y * moon.direction.x);
     // atan2(0, 0) has no value: at the zenith any azimuth will do, the floors pick one.
     let azimuth = atan2(across, dot(direction.xy, moon.direction.xy) + 1e-20);
