@@ -7,6 +7,7 @@
 //! - [`DesertParams`], [`DesertSimulation`], [`DesertSource`]: all of that put together as a scene has it, with states for files.
 //! - [`presets`]: deserts to start from.
 //! - [`shadow`], [`horizon`]: where the wind and where the sun does not reach.
+//! - [`smooth`]: the surface of even slopes and creases that slabs stand for.
 //! - [`brush`], [`terrain`], [`export`]: sand by hand, bedrock from outside, maps and tiles for other programs.
 //!
 //! Every decision is made in 32-bit integers on random words that are pure functions of (seed, step, cell), so a seed
@@ -40,6 +41,7 @@ pub mod shadow;
 mod side;
 mod simulation;
 pub mod slab;
+pub mod smooth;
 pub mod terrain;
 pub mod wind;
 pub mod wind_rose;

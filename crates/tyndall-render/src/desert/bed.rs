@@ -1,15 +1,16 @@
 //! The bed of the desert as pictures see it: smooth heights, where the sun does not reach, how open the sky is, ripples.
 //!
 //! Heights between cells are cubic B-splines (WGSL: `shaders/desert/bed.wgsl`), twice smooth, of cells that have lost the
-//! steps of single slabs ([`super::smooth`]).
+//! steps of single slabs ([`tyndall_dunes::smooth`]).
 
 use tyndall_dunes::DesertSimulation;
 use tyndall_dunes::Edges;
 use tyndall_dunes::export::DuneMaps;
 use tyndall_dunes::horizon::HorizonMap;
 use tyndall_dunes::measure::HeightGrid;
+use tyndall_dunes::smooth::smooth_bed;
 
-use super::smooth::{blur, smooth_bed};
+use super::smooth::blur;
 use crate::RenderError;
 
 /// Azimuths of the horizons that the sky's light is asked for.
@@ -42,7 +43,7 @@ impl Bed {
         let cells: Vec<f32> = maps.height_m.iter().map(|height| (f64::from(*height) / cell_m) as f32).collect();
         let step = simulation.params().dunes.slab_cells as f32;
         let heights = HeightGrid::new(size, cells).expect("a field has as many heights as cells");
-        let heights = smooth_bed(heights, step, edges);
+        let heights = smooth_bed(&heights, step, edges);
         let horizons = HorizonMap::new(&heights, SKY_AZIMUTHS, edges)?;
         let openness = (0..size[0] * size[1]).map(|cell| openness(&heights, &horizons, cell)).collect::<Vec<_>>();
         Ok(Self {
