@@ -35,7 +35,9 @@ struct DunePixel {
 fn dunes_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) ring: u32) -> DuneVertex {
     let vertex = dune_vertices[(ring + (index & 1u)) * desert.columns + index / 2u];
     let position = place_position(vertex.xy, vertex.z);
-    return DuneVertex(place_clip(position), vertex.xy, position, vertex.w);
+    // Bare ground lies on the planet's own, which must not show through.
+    let clip = place_clip(position) * vec4<f32>(1.0, 1.0, 1.001, 1.0);
+    return DuneVertex(clip, vertex.xy, position, vertex.w);
 }
 
 /// Share of the sun's disc over the horizon of a place.

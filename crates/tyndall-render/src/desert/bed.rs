@@ -43,7 +43,7 @@ impl Bed {
         let cells: Vec<f32> = maps.height_m.iter().map(|height| (f64::from(*height) / cell_m) as f32).collect();
         let step = simulation.params().dunes.slab_cells as f32;
         let heights = HeightGrid::new(size, cells).expect("a field has as many heights as cells");
-        let heights = smooth_bed(&heights, step, edges);
+        let heights = over_rock(&smooth_bed(&heights, step, edges), &maps);
         let horizons = HorizonMap::new(&heights, SKY_AZIMUTHS, edges)?;
         let openness = (0..size[0] * size[1]).map(|cell| openness(&heights, &horizons, cell)).collect::<Vec<_>>();
         Ok(Self {
@@ -141,6 +141,14 @@ fn weights(t: f64) -> [f64; 4] {
 fn slopes(t: f64) -> [f64; 4] {
     let u = 1.0 - t;
     [-0.5 * u * u, t * (1.5 * t - 2.0), u * (2.0 - 1.5 * u), 0.5 * t * t]
+}
+
+/// Heights that are nowhere below the rock: at the foot of a slope the planes beside it would dip under bare ground.
+#[expect(clippy::cast_possible_truncation, reason = "textures hold less than f32")]
+fn over_rock(heights: &HeightGrid, maps: &DuneMaps) -> HeightGrid {
+    let rock = maps.height_m.iter().zip(&maps.sand_m).map(|(height, sand)| (height - sand) / maps.cell_m as f32);
+    let over = heights.heights().iter().zip(rock).map(|(height, rock)| height.max(rock)).collect();
+    HeightGrid::new(heights.size(), over).expect("as many heights as before")
 }
 
 /// Share of the sky over a cell of what an endless slope like the cell's would leave of it.
