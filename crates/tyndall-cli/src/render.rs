@@ -8,6 +8,7 @@ pub(crate) mod format;
 pub(crate) mod frame;
 mod frames;
 pub(crate) mod header;
+mod job;
 pub(crate) mod memory;
 mod reference;
 mod sequence;
@@ -30,8 +31,8 @@ use crate::values::parse_size_px;
 use crate::{Exit, Failure};
 
 pub use format::{Bits, CompressionName, FormatArguments, OutputFormat};
-use frame::Job;
 pub use frames::{FrameRange, frame_path, parse_frames, parse_rate, scene_of_frame};
+use job::Job;
 use write::Written;
 
 const EXAMPLES: &str = "\

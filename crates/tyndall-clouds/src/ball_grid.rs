@@ -9,13 +9,9 @@ use tyndall_core::grid::Grid3;
 
 use crate::edges::Edges;
 use crate::error::CloudError;
+use crate::grid_size::{MAX_BALL_CELLS, MAX_BALL_SIDE_CELLS};
 use crate::metaballs::{Metaball, Metaballs};
 use crate::narrow::narrow;
-
-/// Most cells of a grid made of balls, and most along one axis: what a 3-D texture takes.
-pub const MOST_CELLS: usize = 1 << 25;
-/// Most cells along one axis.
-pub const MOST_SIDE_CELLS: usize = 2048;
 
 /// A box of cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +30,7 @@ impl BallGrid {
     /// The smallest box around balls, with one empty cell all around; its sides lie at multiples of a cell.
     ///
     /// # Errors
-    /// [`CloudError::NoBalls`] for an empty list, [`CloudError::BallBox`] when the box has more than [`MOST_CELLS`] cells.
+    /// [`CloudError::NoBalls`] for an empty list, [`CloudError::BallBox`] when the box has more than [`MAX_BALL_CELLS`] cells.
     #[expect(clippy::cast_possible_truncation, reason = "counts of cells are checked before the cast")]
     pub fn around(list: &Metaballs, cell_m: f64) -> Result<Self, CloudError> {
         if list.balls.is_empty() {
@@ -50,7 +46,8 @@ impl BallGrid {
             (list.balls.iter().fold(f64::NEG_INFINITY, most) / cell_m).ceil() + 1.0
         });
         let sides = [0, 1, 2].map(|axis| high[axis] - low[axis]);
-        if sides.iter().product::<f64>() > MOST_CELLS as f64 || sides.iter().any(|side| *side > MOST_SIDE_CELLS as f64)
+        if sides.iter().product::<f64>() > MAX_BALL_CELLS as f64
+            || sides.iter().any(|side| *side > MAX_BALL_SIDE_CELLS as f64)
         {
             return Err(CloudError::BallBox { sides, cell_m });
         }

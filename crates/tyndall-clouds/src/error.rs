@@ -2,8 +2,7 @@
 
 use tyndall_core::grid::Grid3;
 
-use crate::ball_grid::{MOST_CELLS, MOST_SIDE_CELLS};
-use crate::grid_size::{MAX_CELLS, MAX_HEIGHT_CELLS, MAX_SIDE_CELLS};
+use crate::grid_size::{MAX_BALL_CELLS, MAX_BALL_SIDE_CELLS, MAX_CELLS, MAX_HEIGHT_CELLS, MAX_SIDE_CELLS};
 
 /// Refusals of this crate.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -73,7 +72,7 @@ pub enum CloudError {
     NoBalls,
     /// The grid around a list of metaballs has too many cells.
     #[error(
-        "the balls need {:.0} x {:.0} x {:.0} cells of {cell_m} m; {MOST_SIDE_CELLS} along each axis and {MOST_CELLS} in all are \
+        "the balls need {:.0} x {:.0} x {:.0} cells of {cell_m} m; {MAX_BALL_SIDE_CELLS} along each axis and {MAX_BALL_CELLS} in all are \
          allowed: make cells larger",
         .sides[0], .sides[1], .sides[2]
     )]

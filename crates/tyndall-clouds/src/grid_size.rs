@@ -8,6 +8,10 @@ pub const MAX_SIDE_CELLS: usize = 8192;
 pub const MAX_HEIGHT_CELLS: usize = 1024;
 /// Most cells in all: columns are numbered by 32 bits and memory is finite.
 pub const MAX_CELLS: usize = 1 << 31;
+/// Most cells along any axis of a grid made of balls: what a 3-D texture takes.
+pub const MAX_BALL_SIDE_CELLS: usize = 2048;
+/// Most cells in all of a grid made of balls.
+pub const MAX_BALL_CELLS: usize = 1 << 25;
 
 /// `size` = [nx, ny, nz] when the automaton takes it.
 ///

@@ -4,7 +4,7 @@
 //! - [`Automaton`]: humidity, activation and cloud of every cell, 32 heights in one word; [`dobashi2000`] is the same cell by
 //!   cell, for comparison.
 //! - [`ProbabilityLayer`]: where vapour is supplied and where cloud vanishes, as a stack of layers:
-//!   [`HumidEllipsoids`], [`PaintedHumidity`], [`Terrain`], [`HeatSource`] and those of your own.
+//!   [`HumidEllipsoids`], [`Terrain`], [`HeatSource`] and those of your own.
 //! - [`wind`]: a profile over height that moves everything by exact fractions of cells.
 //! - [`CloudDensity`]: the weighted mean over space and time, between steps too; [`ball_density`]: equation (3) on a grid.
 //! - [`ball_grid`]: the same of any list of balls.
@@ -82,6 +82,6 @@ pub use state::{density_from_array, density_from_arrays, state_step};
 pub use statistics::CloudStatistics;
 pub use steepening::{deep_extinction_per_m, steepened};
 pub use sun_depth::{sun_depth, sun_depth_into};
-pub use supply_layers::{HeatSource, PaintedHumidity, Terrain, TerrainLift};
+pub use supply_layers::{HeatSource, Terrain, TerrainLift};
 pub use turbulence::{BILLOWS_LEVELS, BILLOWS_SIDE, Billows};
 pub use wind::{Wind, WindKnot, WindProfile};

@@ -8,11 +8,13 @@ mod medium;
 mod monte_carlo;
 mod phase;
 mod picture;
+mod ray;
 mod single;
 mod vector;
 
 pub use medium::{Medium, ball_medium};
 pub use monte_carlo::{Light, PathExit, PathResult, PathSample, PathSettings, path_radiance, path_sample};
 pub use phase::TabulatedPhase;
-pub use picture::{PathPicture, Ray, path_picture};
+pub use picture::{PathPicture, path_picture};
+pub use ray::Ray;
 pub use single::single_scattering;

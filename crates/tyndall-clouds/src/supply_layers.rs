@@ -1,37 +1,10 @@
-//! Layers of probabilities from maps: painted humidity, terrain, and sources of heat.
+//! Layers of probabilities from the ground: terrain, and sources of heat.
 
 use tyndall_core::grid::Grid2;
 
 use crate::error::CloudError;
 use crate::narrow::narrow;
 use crate::probability::{ProbabilityLayer, ProbabilityRow};
-
-/// A painted map that scales the supply of the layers below it: 0 is dry, 1 leaves it as it is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PaintedHumidity {
-    factors: Grid2<f32>,
-}
-
-impl PaintedHumidity {
-    /// One factor per column of the grid.
-    ///
-    /// # Errors
-    /// When the map has other columns than the grid of [nx, ny, nz] cells.
-    pub fn new(size: [usize; 3], factors: Grid2<f32>) -> Result<Self, CloudError> {
-        check_columns("the painted map", &factors, size)?;
-        Ok(Self { factors })
-    }
-}
-
-impl ProbabilityLayer for PaintedHumidity {
-    fn apply(&self, y: usize, _z: usize, row: &mut ProbabilityRow) {
-        for (x, (humidity, activation)) in row.humidity.iter_mut().zip(&mut row.activation).enumerate() {
-            let factor = self.factors[[x, y]].max(0.0);
-            *humidity *= factor;
-            *activation *= factor;
-        }
-    }
-}
 
 /// Ground that reaches into the grid. Within it there is no cloud; above slopes that the wind climbs, air rises and supplies
 /// vapour, above lee slopes it sinks and dries.
@@ -151,17 +124,6 @@ mod tests {
         let mut row = ProbabilityRow::zeros(10);
         row.fill(Probabilities { extinction: 0.1, humidity: 0.2, activation: 0.01 });
         row
-    }
-
-    #[test]
-    fn a_painted_map_scales_supply_and_leaves_extinction() {
-        let map = PaintedHumidity::new([10, 4, 6], Grid2::from_fn([10, 4], |x, _| x as f32 / 9.0)).unwrap();
-        let mut row = row();
-        map.apply(2, 3, &mut row);
-        assert!(row.humidity[0] < 1e-9 && (row.humidity[9] - 0.2).abs() < 1e-6, "dry to humid");
-        assert!((row.activation[9] - 0.01).abs() < 1e-6 && (row.extinction[0] - 0.1).abs() < 1e-6, "the others");
-        let text = PaintedHumidity::new([10, 5, 6], Grid2::filled([10, 4], 1.0)).unwrap_err().to_string();
-        assert_eq!(text, "the painted map has [10, 4] cells; the grid has [10, 5]");
     }
 
     #[test]

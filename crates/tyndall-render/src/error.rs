@@ -30,7 +30,7 @@ pub enum RenderError {
     Refused(Arc<Self>),
     /// Of the clouds' file.
     #[error(transparent)]
-    CloudFile(#[from] crate::clouds::source::CloudFileError),
+    CloudFile(#[from] crate::clouds::file::CloudFileError),
     /// Of the files of the desert.
     #[error(transparent)]
     DesertFile(#[from] crate::desert_inputs::DesertFileError),

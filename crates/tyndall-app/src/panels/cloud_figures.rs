@@ -8,7 +8,7 @@ use tyndall_render::clouds::CloudReport;
 use tyndall_scene::Scene;
 
 use super::{
-    clouds::table,
+    figure_table::table,
     plots::{few, quiet, short},
     row::rename,
 };

@@ -1,6 +1,6 @@
 //! The panel of the clouds: time, presets of vapour, what the sky amounts to, and the wind.
 
-use egui::{Button, Grid, RichText, ScrollArea, Slider, Ui, vec2};
+use egui::{Button, RichText, ScrollArea, Slider, Ui, vec2};
 use tyndall_clouds::VapourPattern;
 use tyndall_core::ParamSet as _;
 use tyndall_render::clouds::CloudProgress;
@@ -160,17 +160,6 @@ pub(crate) fn last_time_s(scene: &Scene) -> f64 {
 pub(super) fn another_seed(seed: u32) -> u32 {
     // A full-period generator modulo 10000 (Hull and Dobell), so that seeds stay short.
     (seed % 10_000 * 7_421 + 2_113) % 10_000
-}
-
-/// Figures in two columns.
-pub(super) fn table(ui: &mut Ui, name: &str, rows: &[(&str, String)]) {
-    Grid::new(name).num_columns(2).spacing([10.0, 2.0]).show(ui, |ui| {
-        for (caption, text) in rows {
-            ui.weak(*caption);
-            ui.label(text);
-            ui.end_row();
-        }
-    });
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use egui::{Color32, CornerRadius, Rect, Sense, Stroke, Ui, pos2, vec2};
 use tyndall_render::desert::report::DesertReport;
 use tyndall_scene::{DuneModel, Scene};
 
-use super::{cloud_figures::thousands, clouds::table, plots::short, row::rename};
+use super::{cloud_figures::thousands, figure_table::table, plots::short, row::rename};
 use crate::desert_clock::DesertClock;
 
 /// Sand that strong, steady winds carry over a metre of a dune field in a year (m^2): the middle of 10 to 50 of

@@ -7,6 +7,7 @@ pub(crate) mod desert;
 mod desert_figures;
 pub(crate) mod dial;
 pub(crate) mod export;
+mod figure_table;
 pub(crate) mod gallery;
 pub(crate) mod group;
 pub(crate) mod log;

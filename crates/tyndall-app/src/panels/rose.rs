@@ -10,7 +10,7 @@ use tyndall_dunes::wind::{Wind, WindSchedule};
 use tyndall_render::desert::report::{DesertReport, drift};
 use tyndall_scene::Scene;
 
-use super::{clouds::table, row::rename};
+use super::{figure_table::table, row::rename};
 
 /// Side of the rose, radius of the longest arrow in halves of it.
 const ROSE_PT: f32 = 190.0;

@@ -1,35 +1,18 @@
-//! Draws the frame and fetches its pixels.
+//! A frame in memory: waiting for it and fetching its pixels.
 
 use std::time::Duration;
 
-use tyndall_core::array::NamedArrays;
 use tyndall_gpu::wgpu::{PollError, PollType, SubmissionIndex};
-use tyndall_gpu::{Gpu, GpuOptions, PassTiming};
+use tyndall_gpu::{Gpu, PassTiming};
 use tyndall_io::Picture;
 use tyndall_render::{FrameFormat, FrameTarget, PictureFormat, RendererConfig};
-use tyndall_scene::Scene;
 
 use super::format::{Bits, OutputFormat};
-use super::session::Studio;
 use crate::Failure;
-use crate::cache::CacheArguments;
 use crate::interrupt::Interrupt;
-use crate::progress::Progress;
 
 /// How soon a signal is noticed while the GPU works.
 const WAIT_SLICE: Duration = Duration::from_millis(100);
-
-/// Everything that drawing a frame needs.
-#[derive(Debug)]
-pub(super) struct Job<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) format: OutputFormat,
-    pub(super) options: &'a GpuOptions,
-    pub(super) cache: CacheArguments,
-    pub(super) state: Option<&'a NamedArrays>,
-    pub(super) interrupt: &'a Interrupt,
-    pub(super) progress: &'a Progress,
-}
 
 /// A frame in the computer's own memory.
 #[derive(Debug)]
@@ -50,26 +33,6 @@ pub(crate) enum Pixels {
     Sixteen(Vec<[u16; 4]>),
     /// Light of the scene, and depth.
     Light(Picture),
-}
-
-impl Job<'_> {
-    /// Draws the frame; if the device is lost, once more on a new one.
-    pub(super) fn run(&self) -> Result<Frame, Failure> {
-        twice(|| self.attempt(), |failure| self.progress.warn(&format!("{failure}; trying once more")))
-    }
-
-    fn attempt(&self) -> Result<Frame, Failure> {
-        let studio = Studio {
-            size_px: [self.scene.image.width_px, self.scene.image.height_px],
-            format: self.format,
-            options: self.options,
-            cache: self.cache,
-            state: self.state,
-            interrupt: self.interrupt,
-            stages: Some(self.progress),
-        };
-        studio.open()?.draw(self.scene)
-    }
 }
 
 /// Waits for the GPU, and for a signal.

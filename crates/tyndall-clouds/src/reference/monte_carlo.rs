@@ -10,7 +10,7 @@ use tyndall_core::rng::CellRng;
 
 use super::medium::Medium;
 use super::phase::TabulatedPhase;
-use super::picture::Ray;
+use super::ray::Ray;
 use super::vector::{Vec3, along, dot, normalised, turned};
 
 /// What shines on the medium.

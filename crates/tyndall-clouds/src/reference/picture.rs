@@ -5,15 +5,7 @@ use rayon::prelude::*;
 use super::medium::Medium;
 use super::monte_carlo::{Light, PathResult, PathSettings, path_radiance};
 use super::phase::TabulatedPhase;
-
-/// A line of sight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ray {
-    /// Where it begins.
-    pub origin: [f64; 3],
-    /// Where it goes; its length does not matter.
-    pub direction: [f64; 3],
-}
+use super::ray::Ray;
 
 /// What to draw: pixels, and the ray of each place of the picture.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use super::medium::Medium;
 use super::phase::TabulatedPhase;
-use super::picture::Ray;
+use super::ray::Ray;
 use super::vector::{along, dot, normalised};
 
 /// Radiance of light that is scattered exactly once on its way from the sun along `ray` to its origin, for albedo 1 and a

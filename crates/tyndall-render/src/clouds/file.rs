@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::SystemTime;
 
+use tyndall_clouds::grid_size::{MAX_BALL_CELLS, MAX_BALL_SIDE_CELLS};
 use tyndall_clouds::matter::centred;
 use tyndall_clouds::{
     BallGrid, CloudGridParams, CloudMatter, CloudMatterParams, Edges, Metaball, Metaballs, density_from_array,
@@ -13,16 +14,31 @@ use tyndall_core::metaball::BALL_MASS;
 use tyndall_io::{IoError, read_npy, read_npz};
 use tyndall_scene::{CloudFileHolds, CloudsParams, Scene};
 
-use super::source::CloudFileError;
-
 /// Endings that are read.
 const ENDINGS: &str = ".npz, .npy, .csv and .json";
-/// Most balls and cells of a grid: as for grids made of balls.
-const MOST_CELLS: usize = tyndall_clouds::ball_grid::MOST_CELLS;
-/// Most cells along an axis: what a 3-D texture takes.
-const MOST_SIDE_CELLS: usize = tyndall_clouds::ball_grid::MOST_SIDE_CELLS;
 /// Most bytes of a list of balls: some 10 million of them.
 const MOST_LIST_BYTES: u64 = 1 << 29;
+
+/// Why clouds could not be taken from a file.
+#[derive(Debug, thiserror::Error)]
+pub enum CloudFileError {
+    /// No file was named.
+    #[error(
+        "clouds.kind is file, and clouds.file is empty; name a grid (.npz, .npy) or a list of metaballs (.csv, .json)"
+    )]
+    Unnamed,
+    /// The file cannot be read; the message names it.
+    #[error(transparent)]
+    Io(Box<IoError>),
+    /// The file has something that cannot be drawn.
+    #[error("{}: {problem}", .path.display())]
+    Refused {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
 
 /// Everything that the clouds of a file follow from.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,10 +86,13 @@ impl CloudFileRequest {
         };
         let grid = read.map_err(|problem| self.refused(problem.to_string()))?;
         let size = grid.size();
-        if size.contains(&0) || size.iter().any(|side| *side > MOST_SIDE_CELLS) || grid.cells().len() > MOST_CELLS {
+        if size.contains(&0)
+            || size.iter().any(|side| *side > MAX_BALL_SIDE_CELLS)
+            || grid.cells().len() > MAX_BALL_CELLS
+        {
             let [x, y, z] = size;
             return Err(self.refused(format!(
-                "{x} x {y} x {z} cells; 1 to {MOST_SIDE_CELLS} along each axis and {MOST_CELLS} in all are allowed"
+                "{x} x {y} x {z} cells; 1 to {MAX_BALL_SIDE_CELLS} along each axis and {MAX_BALL_CELLS} in all are allowed"
             )));
         }
         Ok(grid)
@@ -110,10 +129,12 @@ impl CloudFileRequest {
             low_corner_m,
             edges: self.grid.edges,
         };
-        if grid.size.iter().any(|side| *side > MOST_SIDE_CELLS) || grid.size.iter().product::<usize>() > MOST_CELLS {
+        if grid.size.iter().any(|side| *side > MAX_BALL_SIDE_CELLS)
+            || grid.size.iter().product::<usize>() > MAX_BALL_CELLS
+        {
             let [x, y, z] = grid.size;
             return Err(self.refused(format!(
-                "{x} x {y} x {z} samples; {MOST_SIDE_CELLS} along each axis and {MOST_CELLS} in all are allowed: lower \
+                "{x} x {y} x {z} samples; {MAX_BALL_SIDE_CELLS} along each axis and {MAX_BALL_CELLS} in all are allowed: lower \
                  clouds.file_samples"
             )));
         }

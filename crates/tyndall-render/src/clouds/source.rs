@@ -1,14 +1,12 @@
 //! Where the clouds of a scene come from, and what they consist of at a moment.
 
 use std::collections::VecDeque;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use tyndall_clouds::statistics::cover;
 use tyndall_clouds::{CloudMatter, CloudParams, CloudSimulation, state_step};
 use tyndall_core::array::NamedArrays;
-use tyndall_io::IoError;
 use tyndall_scene::{CloudKind, Scene};
 
 use super::file::CloudFileRequest;
@@ -16,27 +14,6 @@ use crate::RenderError;
 
 /// Steps whose cover is kept.
 const KEPT_STEPS: usize = 2000;
-
-/// Why clouds could not be taken from a file.
-#[derive(Debug, thiserror::Error)]
-pub enum CloudFileError {
-    /// No file was named.
-    #[error(
-        "clouds.kind is file, and clouds.file is empty; name a grid (.npz, .npy) or a list of metaballs (.csv, .json)"
-    )]
-    Unnamed,
-    /// The file cannot be read; the message names it.
-    #[error(transparent)]
-    Io(Box<IoError>),
-    /// The file has something that cannot be drawn.
-    #[error("{}: {problem}", .path.display())]
-    Refused {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        problem: String,
-    },
-}
 
 /// What the matter of clouds follows from.
 #[derive(Clone, Debug, PartialEq)]
