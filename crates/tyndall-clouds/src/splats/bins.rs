@@ -19,6 +19,40 @@ pub(super) struct Disc {
     pub(super) peak: f32,
 }
 
+/// Discs of a group.
+pub(super) const LANES: usize = 8;
+
+/// Discs side by side, as vector instructions take them; places without a disc have no peak.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct DiscGroup {
+    /// As in [`Disc`].
+    pub(super) place: [[f32; LANES]; 2],
+    /// As in [`Disc`].
+    pub(super) toward: [f32; LANES],
+    /// As in [`Disc`].
+    pub(super) per_radius: [f32; LANES],
+    /// As in [`Disc`].
+    pub(super) peak: [f32; LANES],
+}
+
+impl DiscGroup {
+    fn set(&mut self, lane: usize, disc: &Disc) {
+        let Disc { place, toward, per_radius, peak } = *disc;
+        (self.place[0][lane], self.place[1][lane], self.toward[lane]) = (place[0], place[1], toward);
+        (self.per_radius[lane], self.peak[lane]) = (per_radius, peak);
+    }
+
+    /// The discs one by one, with those that are not there.
+    pub(super) fn discs(&self) -> impl Iterator<Item = Disc> {
+        (0..LANES).map(|lane| Disc {
+            place: [self.place[0][lane], self.place[1][lane]],
+            toward: self.toward[lane],
+            per_radius: self.per_radius[lane],
+            peak: self.peak[lane],
+        })
+    }
+}
+
 /// Unit vectors: two across a direction, and the direction itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LightAxes {
@@ -68,8 +102,9 @@ pub(super) struct Bins {
     low: [f32; 2],
     side: f32,
     count: [usize; 2],
+    /// The first group of each cell.
     starts: Vec<usize>,
-    discs: Vec<Disc>,
+    groups: Vec<DiscGroup>,
 }
 
 impl Bins {
@@ -94,32 +129,31 @@ impl Bins {
             mean.max((extent[0] * extent[1] / MOST_CELLS).sqrt()).max(extent[0].max(extent[1]) / MOST_CELLS).max(1e-6),
         );
         let count = [0, 1].map(|axis| whole(narrow(extent[axis]) / side) + 1);
-        let mut bins = Self { low, side, count, starts: vec![0; count[0] * count[1] + 1], discs: Vec::new() };
+        let mut bins = Self { low, side, count, starts: vec![0; count[0] * count[1] + 1], groups: Vec::new() };
         bins.fill(discs);
         bins
     }
 
     fn fill(&mut self, discs: &[Disc]) {
+        let mut counts = vec![0_usize; self.starts.len() - 1];
         for disc in discs {
-            self.for_cells(disc, |cell, starts, _| starts[cell + 1] += 1);
+            self.for_cells(disc, |cell| counts[cell] += 1);
         }
-        for cell in 1..self.starts.len() {
-            self.starts[cell] += self.starts[cell - 1];
+        for (cell, count) in counts.iter().enumerate() {
+            self.starts[cell + 1] = self.starts[cell] + count.div_ceil(LANES);
         }
-        let Some(first) = discs.first() else { return };
-        self.discs = vec![*first; self.starts[self.starts.len() - 1]];
+        let mut groups = vec![DiscGroup::default(); self.starts[counts.len()]];
+        counts.fill(0);
         for disc in discs {
-            self.for_cells(disc, |cell, starts, listed| {
-                listed[starts[cell]] = *disc;
-                starts[cell] += 1;
+            self.for_cells(disc, |cell| {
+                groups[self.starts[cell] + counts[cell] / LANES].set(counts[cell] % LANES, disc);
+                counts[cell] += 1;
             });
         }
-        // Each start has moved to the next cell's.
-        self.starts.rotate_right(1);
-        self.starts[0] = 0;
+        self.groups = groups;
     }
 
-    fn for_cells(&mut self, disc: &Disc, mut visit: impl FnMut(usize, &mut [usize], &mut [Disc])) {
+    fn for_cells(&self, disc: &Disc, mut visit: impl FnMut(usize)) {
         let radius = 1.0 / disc.per_radius;
         let [columns, rows] = [0, 1].map(|axis| {
             let cell = |place: f32| whole((place - self.low[axis]) / self.side).min(self.count[axis] - 1);
@@ -127,17 +161,17 @@ impl Bins {
         });
         for row in rows {
             for column in columns.clone() {
-                visit(row * self.count[0] + column, &mut self.starts, &mut self.discs);
+                visit(row * self.count[0] + column);
             }
         }
     }
 
     /// The discs that may cover a place.
-    pub(super) fn near(&self, place: [f32; 2]) -> &[Disc] {
+    pub(super) fn near(&self, place: [f32; 2]) -> &[DiscGroup] {
         let [column, row] =
             [0, 1].map(|axis| whole((place[axis] - self.low[axis]) / self.side).min(self.count[axis] - 1));
         let cell = row * self.count[0] + column;
-        &self.discs[self.starts[cell]..self.starts[cell + 1]]
+        &self.groups[self.starts[cell]..self.starts[cell + 1]]
     }
 }
 
@@ -162,10 +196,13 @@ mod tests {
         let discs: Vec<_> = (0..300).map(disc).collect();
         let bins = Bins::new(&discs);
         for place in [[0.0, 0.0], [33.3, 40.0], [68.2, 84.8], [10.0, 71.9]] {
-            let covers =
-                |disc: &&Disc| (disc.place[0] - place[0]).hypot(disc.place[1] - place[1]) * disc.per_radius < 1.0;
-            let wanted: Vec<_> = discs.iter().filter(covers).map(|disc| disc.toward.to_bits()).collect();
-            let found: Vec<_> = bins.near(place).iter().filter(covers).map(|disc| disc.toward.to_bits()).collect();
+            let covers = |disc: &Disc| {
+                let away = (disc.place[0] - place[0]).hypot(disc.place[1] - place[1]);
+                away * disc.per_radius < 1.0 && disc.peak > 0.0
+            };
+            let wanted: Vec<_> = discs.iter().filter(|disc| covers(disc)).map(|disc| disc.toward.to_bits()).collect();
+            let near = bins.near(place).iter().flat_map(DiscGroup::discs).filter(covers);
+            let found: Vec<_> = near.map(|disc| disc.toward.to_bits()).collect();
             assert_eq!(found, wanted, "at {place:?}");
         }
         assert!(Bins::new(&[]).near([3.0, 4.0]).is_empty(), "nothing among none");

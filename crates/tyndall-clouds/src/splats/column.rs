@@ -23,9 +23,9 @@ pub(super) fn column_to(u: f32, s: f32) -> f32 {
 #[inline(always)]
 fn half_column(u: f32, s: f32) -> f32 {
     let s2 = s * s;
-    let square = s * (u * u - s2 * (2.0 / 3.0 * u - s2 / 5.0));
-    let cube = s * (u * u * u - s2 * (u * u - s2 * (3.0 / 5.0 * u - s2 / 7.0)));
-    (5.0 * square + 4.0 * cube) / 9.0
+    let square = s * (u * u - s2 * (2.0 / 3.0 * u - 0.2 * s2));
+    let cube = s * (u * u * u - s2 * (u * u - s2 * (0.6 * u - 1.0 / 7.0 * s2)));
+    5.0 / 9.0 * square + 4.0 / 9.0 * cube
 }
 
 /// Derivative of [`column_to`] by `u`.
@@ -34,7 +34,8 @@ pub(super) fn column_to_by_u(u: f32, s: f32) -> f32 {
     let u = u.max(0.0);
     let end = u.sqrt();
     let (s, s2) = (s.clamp(-end, end), s.clamp(-end, end).powi(2));
-    let half = s * (5.0 * (2.0 * u - 2.0 / 3.0 * s2) + 4.0 * (3.0 * u * u - s2 * (2.0 * u - 0.6 * s2))) / 9.0;
+    let parts = 5.0 * (2.0 * u - 2.0 / 3.0 * s2) + 4.0 * (3.0 * u * u - s2 * (2.0 * u - 0.6 * s2));
+    let half = 1.0 / 9.0 * s * parts;
     half + 0.5 * u * end * (2.5 * COLUMN[0] + 3.5 * COLUMN[1] * u)
 }
 
@@ -42,7 +43,7 @@ pub(super) fn column_to_by_u(u: f32, s: f32) -> f32 {
 #[inline(always)]
 pub(super) fn field(u: f32, s: f32) -> f32 {
     let w = (u - s * s).max(0.0);
-    w * w * (5.0 + 4.0 * w) / 9.0
+    w * w * (5.0 / 9.0 + 4.0 / 9.0 * w)
 }
 
 /// exp(-x) for x >= 0, within 3e-7 of itself; of additions, multiplications and bits alone, so that it becomes vector

@@ -4,13 +4,18 @@
 //! the light: once a ball, back to the processor. In the logarithm that is a sum, the optical depth of the columns between
 //! the light and the centre; here every ball adds them up, from a list of those that lie on its way. Columns end exactly at
 //! the centre, where the paper takes each ball whole or not at all, so that no order among balls at equal distance matters.
+//! Balls on the way are taken eight at a time, with a sum for each of the eight places: the same bits on every processor.
+#![expect(clippy::inline_always, reason = "only what is inlined is compiled for the processor's wider instructions")]
 
 use rayon::prelude::*;
 
-use super::bins::{Bins, Disc, LightAxes};
+use super::bins::{Bins, Disc, DiscGroup, LANES, LightAxes};
 use super::column::{column, column_to, column_to_by_u, field};
 use crate::error::{CloudError, in_range};
 use crate::metaballs::Metaball;
+
+/// Balls that one task lights.
+const BALLS_PER_TASK: usize = 256;
 
 /// Optical depths on the line through a ball's centre along the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,12 +40,34 @@ pub fn ball_depths(
     neighbours: &[Metaball],
     to_light: [f64; 3],
 ) -> Result<Vec<BallDepth>, CloudError> {
+    depths(balls, neighbours, (to_light, true))
+}
+
+/// [`ball_depths`] with gradients that are 0, in about half of the time.
+pub(super) fn ball_depths_alone(
+    balls: &[Metaball],
+    neighbours: &[Metaball],
+    to_light: [f64; 3],
+) -> Result<Vec<BallDepth>, CloudError> {
+    depths(balls, neighbours, (to_light, false))
+}
+
+fn depths(
+    balls: &[Metaball],
+    neighbours: &[Metaball],
+    (to_light, with_gradient): ([f64; 3], bool),
+) -> Result<Vec<BallDepth>, CloudError> {
     let length = to_light.iter().map(|part| part * part).sum::<f64>().sqrt();
     in_range("length of the direction to the light", length, (1e-100, 1e100), "")?;
     let axes = LightAxes::new(middle(balls), to_light.map(|part| part / length));
     let discs: Vec<_> = balls.iter().chain(neighbours).map(|ball| axes.disc(ball)).collect();
     let bins = Bins::new(&discs);
-    Ok(discs[..balls.len()].par_iter().map(|disc| depth_of(disc, bins.near(disc.place), &axes)).collect())
+    let mut depths = vec![BallDepth::default(); balls.len()];
+    let (arch, lit) = (pulp::Arch::new(), &discs[..balls.len()]);
+    let tasks = depths.par_chunks_mut(BALLS_PER_TASK).zip(lit.par_chunks(BALLS_PER_TASK));
+    let axes = with_gradient.then_some(&axes);
+    tasks.for_each(|(depths, discs)| arch.dispatch(Task { discs, bins: &bins, axes, depths }));
+    Ok(depths)
 }
 
 /// Middle of the balls' centres, so that places are small numbers.
@@ -54,28 +81,74 @@ pub(super) fn middle(balls: &[Metaball]) -> [f64; 3] {
     sum.map(|sum| sum / balls.len().max(1) as f64)
 }
 
-fn depth_of(disc: &Disc, others: &[Disc], axes: &LightAxes) -> BallDepth {
-    let (mut before, mut whole, mut gradient) = (0.0_f32, 0.0_f32, [0.0_f32; 3]);
-    for other in others {
-        let apart = [0, 1].map(|axis| (other.place[axis] - disc.place[axis]) * other.per_radius);
-        let u = 1.0 - apart[0] * apart[0] - apart[1] * apart[1];
-        if u > 0.0 {
-            let s = (other.toward - disc.toward) * other.per_radius;
-            whole += other.peak * column(u);
-            before += other.peak * column_to(u, s);
-            let steepness = other.peak * other.per_radius;
-            let across = 2.0 * steepness * column_to_by_u(u, s);
-            gradient[0] += across * apart[0];
-            gradient[1] += across * apart[1];
-            gradient[2] -= steepness * field(u, s);
+/// Some balls to be lit.
+struct Task<'a> {
+    discs: &'a [Disc],
+    bins: &'a Bins,
+    /// The light's, where the gradient is wanted.
+    axes: Option<&'a LightAxes>,
+    depths: &'a mut [BallDepth],
+}
+
+impl pulp::WithSimd for Task<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _simd: S) {
+        for (depth, disc) in self.depths.iter_mut().zip(self.discs) {
+            let near = self.bins.near(disc.place);
+            // The branch is out here, so that each half is compiled without the other.
+            *depth = if self.axes.is_some() { depth_of(disc, near, self.axes) } else { depth_of(disc, near, None) };
         }
     }
+}
+
+/// Sums over the balls on the way, place by place.
+#[derive(Default)]
+struct Sums {
+    before: [f32; LANES],
+    whole: [f32; LANES],
+    gradient: [[f32; LANES]; 3],
+}
+
+impl Sums {
+    /// Adds the balls of a group; one whose disc does not reach the centre adds nothing.
+    #[inline(always)]
+    fn add(&mut self, disc: &Disc, others: &DiscGroup, with_gradient: bool) {
+        for lane in 0..LANES {
+            let (per_radius, peak) = (others.per_radius[lane], others.peak[lane]);
+            let apart = [0, 1].map(|axis: usize| (others.place[axis][lane] - disc.place[axis]) * per_radius);
+            let u = (1.0 - apart[0] * apart[0] - apart[1] * apart[1]).max(0.0);
+            let s = (others.toward[lane] - disc.toward) * per_radius;
+            self.whole[lane] += peak * column(u);
+            self.before[lane] += peak * column_to(u, s);
+            if with_gradient {
+                let steepness = peak * per_radius;
+                let across = 2.0 * steepness * column_to_by_u(u, s);
+                self.gradient[0][lane] += across * apart[0];
+                self.gradient[1][lane] += across * apart[1];
+                self.gradient[2][lane] -= steepness * field(u, s);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn depth_of(disc: &Disc, others: &[DiscGroup], axes: Option<&LightAxes>) -> BallDepth {
+    let mut sums = Sums::default();
+    for others in others {
+        sums.add(disc, others, axes.is_some());
+    }
+    let sum = |lanes: &[f32; LANES]| lanes.iter().sum::<f32>();
+    let (before, whole) = (sum(&sums.before), sum(&sums.whole));
+    let mut gradient = [sum(&sums.gradient[0]), sum(&sums.gradient[1]), sum(&sums.gradient[2])];
     // The ball itself is among the others, half of it on either side. Its own field falls off before its rim: half of it in
     // the middle is its mean slope.
     let own = disc.peak * column(1.0);
     gradient[2] += 0.5 * disc.peak * disc.per_radius;
     let before = (before - 0.5 * own).max(0.0);
-    BallDepth { before, own, behind: (whole - own - before).max(0.0), gradient_per_m: axes.world(gradient) }
+    let gradient_per_m = axes.map_or([0.0; 3], |axes| axes.world(gradient));
+    BallDepth { before, own, behind: (whole - own - before).max(0.0), gradient_per_m }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::column::exp_minus;
-use super::depths::{BallDepth, ball_depths};
+use super::depths::{BallDepth, ball_depths, ball_depths_alone};
 use crate::cloud_light::{sky_share, sun_diffusion};
 use crate::error::{CloudError, in_range};
 use crate::metaballs::Metaball;
@@ -56,7 +56,7 @@ pub fn light_balls(
     let mut lit: Vec<_> = balls.par_iter().zip(&depths).map(|(ball, depth)| lit_once(ball, depth)).collect();
     let Some(transport) = lighting.transport else { return Ok(lit) };
     in_range("transport", transport, (1e-6, 2.0), "")?;
-    let level = ball_depths(balls, neighbours, [0.0, 0.0, 1.0])?;
+    let level = ball_depths_alone(balls, neighbours, [0.0, 0.0, 1.0])?;
     lit.par_iter_mut().zip(depths.par_iter().zip(&level)).for_each(|(lit, (depth, level))| {
         let scaled = |far: f32, own: f32| transport * f64::from(far + 0.5 * own);
         let (before, behind) = (scaled(depth.before, depth.own), scaled(depth.behind, depth.own));

@@ -63,6 +63,17 @@ pub fn rasterise(
     Ok(picture)
 }
 
+/// What ends lines of sight within a ball.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Cut {
+    /// Nothing.
+    Nowhere,
+    /// Surfaces of the scene, perhaps.
+    BySurfaces,
+    /// The camera, which stands in it or beside it.
+    ByCamera,
+}
+
 /// What all bands share.
 struct Raster<'a> {
     size: [usize; 2],
@@ -105,18 +116,21 @@ impl<'a> Raster<'a> {
         ]
     }
 
-    /// Whether some line of sight may end within the ball.
-    fn is_cut(&self, ball: &SeenBall, [left, top, right, bottom]: [usize; 4]) -> bool {
+    /// What may end lines of sight within the ball.
+    fn cut(&self, ball: &SeenBall, [left, top, right, bottom]: [usize; 4]) -> Cut {
         if ball.centre_m[2] <= 1.001 * ball.radius_m {
-            return true;
+            return Cut::ByCamera;
         }
-        let Some(_) = self.limits_m else { return false };
+        if self.limits_m.is_none() {
+            return Cut::Nowhere;
+        }
         let farthest = if self.perspective { ball.distance_m } else { ball.centre_m[2] } + ball.radius_m;
         let tiles = self.size[0].div_ceil(TILE_PX);
-        (top / TILE_PX..=(bottom - 1) / TILE_PX).any(|row| {
+        let is_limited = (top / TILE_PX..=(bottom - 1) / TILE_PX).any(|row| {
             let row = &self.least_m[row * tiles..][..tiles];
             row[left / TILE_PX..=(right - 1) / TILE_PX].iter().any(|least| *least < farthest)
-        })
+        });
+        if is_limited { Cut::BySurfaces } else { Cut::Nowhere }
     }
 }
 
@@ -192,14 +206,14 @@ impl pulp::WithSimd for Band<'_> {
             let span = raster.span(ball);
             let from = span[1].max(self.first_row);
             let to = span[3].min(self.first_row + rows);
-            let is_cut = raster.is_cut(ball, span);
+            let cut = raster.cut(ball, span);
             let form = Form::new(ball, raster);
             for row in from..to {
                 let values = &mut self.values[(row - self.first_row) * row_values..][..row_values];
-                if is_cut {
-                    draw_cut(ball, raster, row, span, values);
-                } else {
-                    draw_row(ball, raster, &form.row(ball, raster, row), span, values);
+                match cut {
+                    Cut::Nowhere => draw_row(ball, raster, &form.row(ball, raster, row), span, values),
+                    Cut::BySurfaces => draw_limited(ball, raster, &form.row(ball, raster, row), row, span, values),
+                    Cut::ByCamera => draw_cut(ball, raster, row, span[0]..span[2], values),
                 }
             }
         }
@@ -302,30 +316,68 @@ fn lay_over(plane: &mut [f32], column: usize, left: &[f32; LANES], own: &[f32; L
 /// A row of a ball.
 #[inline(always)]
 fn draw_row(ball: &SeenBall, raster: &Raster<'_>, form: &RowForm, span: [usize; 4], values: &mut [f32]) {
+    let mut column = span[0];
+    while column < span[2] {
+        draw_group(ball, raster, form, column, values);
+        column += LANES;
+    }
+}
+
+/// Pixels of a ball next to each other.
+#[inline(always)]
+fn draw_group(ball: &SeenBall, raster: &Raster<'_>, form: &RowForm, column: usize, values: &mut [f32]) {
     let stride = raster.stride;
     let often = [0.0, 0.0, 0.0, ball.forward, ball.diffuse, ball.sky, 0.0];
     let (direct, rest) = values.split_at_mut(stride);
     let (distance, rest) = rest.split_at_mut(stride);
     let (transmittance, rest) = rest.split_at_mut(stride);
+    let Some(columns2) = raster.columns2[column..].first_chunk() else { return };
+    let group = Group::new(ball, form, column, columns2, raster.transport);
+    lay_over(direct, column, &group.left, &group.direct);
+    lay_over(distance, column, &group.left, &[ball.distance_m; LANES]);
+    lay_over(transmittance, column, &group.left, &[0.0; LANES]);
+    for (plane, own) in rest.chunks_exact_mut(stride).zip(&often[ONCE_PLANES..]) {
+        lay_over(plane, column, &group.left_thin, &[*own; LANES]);
+    }
+}
+
+/// A row of a ball before the camera that a surface cuts: pixels whose surface lies behind it are drawn as if there were none,
+/// and those whose surface lies before it not at all.
+#[inline(always)]
+fn draw_limited(
+    ball: &SeenBall,
+    raster: &Raster<'_>,
+    form: &RowForm,
+    row: usize,
+    span: [usize; 4],
+    values: &mut [f32],
+) {
+    let Some(limits) = raster.limits_m.map(|limits| &limits[row * raster.size[0]..][..raster.size[0]]) else { return };
+    let middle_m = if raster.perspective { ball.distance_m } else { ball.centre_m[2] };
+    // A little more than the ball, against rounding.
+    let [nearest_m, farthest_m] = [-1.001, 1.001].map(|share| middle_m + share * ball.radius_m);
     let mut column = span[0];
     while column < span[2] {
-        let Some(columns2) = raster.columns2[column..].first_chunk() else { return };
-        let group = Group::new(ball, form, column, columns2, raster.transport);
-        lay_over(direct, column, &group.left, &group.direct);
-        lay_over(distance, column, &group.left, &[ball.distance_m; LANES]);
-        lay_over(transmittance, column, &group.left, &[0.0; LANES]);
-        for (plane, own) in rest.chunks_exact_mut(stride).zip(&often[ONCE_PLANES..]) {
-            lay_over(plane, column, &group.left_thin, &[*own; LANES]);
+        let end = (column + LANES).min(span[2]);
+        let (mut least, mut most) = (f32::INFINITY, f32::NEG_INFINITY);
+        for limit in &limits[column..end] {
+            (least, most) = (least.min(*limit), most.max(*limit));
+        }
+        // A whole group also draws beyond the ball's box, where it has nothing to draw.
+        if least > farthest_m {
+            draw_group(ball, raster, form, column, values);
+        } else if most > nearest_m {
+            draw_cut(ball, raster, row, column..end, values);
         }
         column += LANES;
     }
 }
 
-/// A row of a ball that the camera stands in, or that a surface cuts.
+/// Pixels of a row of a ball that the camera stands in, or that a surface cuts.
 #[inline(never)]
-fn draw_cut(ball: &SeenBall, raster: &Raster<'_>, row: usize, span: [usize; 4], values: &mut [f32]) {
+fn draw_cut(ball: &SeenBall, raster: &Raster<'_>, row: usize, columns: std::ops::Range<usize>, values: &mut [f32]) {
     let centre = Form::new(ball, raster).centre;
-    for column in span[0]..span[2] {
+    for column in columns {
         let limit_m = raster.limits_m.map_or(f32::INFINITY, |limits| limits[row * raster.size[0] + column]);
         let place = [raster.first[0] + raster.pixel[0] * column as f32, raster.first[1] - raster.pixel[1] * row as f32];
         let depth = cut_depth(ball, place, raster.perspective, limit_m);

@@ -132,6 +132,32 @@ fn a_surface_within_a_ball_ends_its_column_there_and_one_before_it_hides_it() {
 }
 
 #[test]
+fn each_pixel_is_cut_by_its_own_surface_wherever_those_beside_it_are() {
+    let view = perspective([48, 36]);
+    let ball = lit([5.0, 50.0, 2.0], 30.0, 0.03);
+    let seen = project(&[ball], &view);
+    let orders = SplatOrders::All { transport: 0.2 };
+    let drawn = |limits: &[f32]| rasterise(&seen, &view, orders, Some(limits)).unwrap();
+    // Before the ball, within it and behind it, in stripes that are no multiple of a group.
+    let places_m = [10.0, 48.0, 200.0];
+    let of = |column: usize, row: usize| (column / 5 + row / 3) % 3;
+    let limits: Vec<f32> = (0..36 * 48).map(|index| places_m[of(index % 48, index / 48)]).collect();
+    let mixed = drawn(&limits);
+    let even = places_m.map(|limit_m| drawn(&[limit_m; 36 * 48]));
+    for (column, row) in (0..36 * 48).map(|index| (index % 48, index / 48)) {
+        let (found, wanted) = (mixed.pixel(column, row), even[of(column, row)].pixel(column, row));
+        for (found, wanted) in [
+            (found.direct, wanted.direct),
+            (found.transmittance, wanted.transmittance),
+            (found.diffuse, wanted.diffuse),
+            (found.thin, wanted.thin),
+        ] {
+            assert!((found - wanted).abs() < 1e-5, "pixel {column}, {row}: {found} and {wanted}");
+        }
+    }
+}
+
+#[test]
 fn in_the_middle_of_a_ball_half_of_it_is_before_the_camera() {
     let view = perspective([16, 12]);
     let planes = rasterise(&project(&[lit([0.0; 3], 10.0, 0.1)], &view), &view, SplatOrders::Single, None).unwrap();

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use tyndall_core::grid::Grid2;
 
-use super::bins::{Bins, LightAxes};
+use super::bins::{Bins, Disc, DiscGroup, LightAxes};
 use super::column::column;
 use super::depths::middle;
 use crate::error::{CloudError, in_range};
@@ -42,11 +42,11 @@ pub fn shadow_map(balls: &[Metaball], to_light: [f64; 3], plane: &ShadowPlane) -
             };
             let [u, v, _] =
                 axes.place([place(0, column_index), place(1, row), plane.corner_m[2]].map(crate::narrow::narrow));
-            let depth = |disc: &super::bins::Disc| {
+            let depth = |disc: Disc| {
                 let apart = [(disc.place[0] - u) * disc.per_radius, (disc.place[1] - v) * disc.per_radius];
                 disc.peak * column(1.0 - apart[0] * apart[0] - apart[1] * apart[1])
             };
-            *texel = bins.near([u, v]).iter().map(depth).sum();
+            *texel = bins.near([u, v]).iter().flat_map(DiscGroup::discs).map(depth).sum();
         }
     });
     Ok(map)

@@ -11,8 +11,9 @@ use std::time::{Duration, Instant};
 
 use tyndall_core::array::NamedArrays;
 
+use super::maker::{Volume, VolumeMaker};
 use super::report::CloudReport;
-use super::volume::{Volume, VolumeMaker, VolumeRequest};
+use super::request::VolumeRequest;
 use crate::RenderError;
 use crate::sky::{TableBuilding, Wake};
 

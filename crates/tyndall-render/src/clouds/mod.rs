@@ -14,8 +14,10 @@ pub mod gpu_data;
 mod half;
 pub(crate) mod in_air;
 mod lamp;
+mod maker;
 pub mod reference;
 mod report;
+mod request;
 mod shadow;
 mod skip;
 pub mod source;
@@ -35,13 +37,12 @@ use crate::sky::{SkyLightReach, SkyLightTable, SkyTables, TableBuilding};
 use crate::splats::SplatRasteriser;
 use crate::{FrameTarget, RenderError, RendererConfig, View};
 use billows::{billow_texture, drift_cells};
-use gpu_data::{Clouds, transport};
+use gpu_data::Clouds;
 use half::HalfClouds;
-use lamp::Lamp;
+use request::VolumeRequest;
 use shadow::CloudShadow;
-use source::CloudSourceRequest;
 use splats::CloudSplats;
-use volume::{CloudVolume, LightRequest, VolumeRequest};
+use volume::CloudVolume;
 
 /// The pipeline, the simulation and its textures.
 #[derive(Debug)]
@@ -163,13 +164,11 @@ impl CloudRenderer {
         target: &FrameTarget,
     ) -> Result<Option<CloudDrawData>, RenderError> {
         self.shadow.update(gpu, None);
-        let Some(source) = CloudSourceRequest::of(scene) else {
+        let Some(request) = VolumeRequest::of(scene)? else {
             self.volume.rest();
             return Ok(None);
         };
-        let light =
-            LightRequest { lamp: Lamp::of(scene)?, transport: transport(&scene.clouds), detail: scene.clouds.detail };
-        let Some(shown) = self.volume.update(gpu, &VolumeRequest { source, light })? else { return Ok(None) };
+        let Some(shown) = self.volume.update(gpu, &request)? else { return Ok(None) };
         let textures = &shown.textures;
         let drift = drift_cells(&shown.request.source, shown.matter.time_s);
         let uniform = Clouds::new(&scene.clouds, &shown.matter, shown.full_per_m, drift);
@@ -195,11 +194,12 @@ impl CloudRenderer {
         let shade: Vec<_> = shade.into_iter().filter(|(name, _)| *name != "cloud_shade_cells").collect();
         let mut own = vec![("clouds", self.uniform.as_entire_binding()), ("cloud_behind", behind.as_binding())];
         own.push(("cloud_depth", target.depth.as_binding()));
-        let method = scene.clouds.method;
+        // Clouds that were made to be marched are marched, until a thread has lit their balls.
+        let method = if shown.balls.is_some() { scene.clouds.method } else { CloudMethod::Volume };
         let halves = method == CloudMethod::Volume && scene.clouds.resolution == CloudResolution::Half;
         let over = halves.then(|| self.half.bind(gpu, surroundings.frame, behind, target)).transpose()?;
         let pipeline = if method == CloudMethod::Splats {
-            let (pipeline, [once, often]) = self.splats.prepare(gpu, (scene, light.lamp), &shown.matter, target)?;
+            let (pipeline, [once, often]) = self.splats.prepare(gpu, target)?;
             own.extend([("splat_once", once.as_binding()), ("splat_often", often.as_binding())]);
             pipeline
         } else {
@@ -256,10 +256,11 @@ impl CloudRenderer {
         (data, scene, view): (&CloudDrawData, &Scene, View),
         target: &FrameTarget,
     ) -> Result<(), RenderError> {
-        if data.method == CloudMethod::Splats {
-            self.splats.draw(gpu, recording, (scene, view), target)?;
+        let balls = self.volume.shown().and_then(|(shown, _)| shown.balls.as_ref());
+        match balls.filter(|_| data.method == CloudMethod::Splats) {
+            Some(balls) => self.splats.draw(gpu, recording, (balls, scene, view), target),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// Chooses who draws clouds of splats; at first the CPU where the adapter is a software one.

@@ -9,7 +9,7 @@ use tyndall_gpu::{Buffer, Gpu, Texture, TextureDesc};
 
 use super::gpu_data;
 use super::lamp::Lamp;
-use super::volume::LightRequest;
+use super::request::LightRequest;
 use crate::RenderError;
 
 /// Map, uniform and samplers, of clouds or of an open sky.
