@@ -63,3 +63,28 @@ fn ranges_and_names_that_do_not_fit_are_refused() {
     refused(&["-o", "f-##.png", "--frames", "1-2", "--set", "clouds.kind=none", "--state", "x.npz"], "x.npz");
     assert_eq!(place.files(), ["sky.toml"], "nothing was drawn");
 }
+
+#[test]
+fn clouds_do_not_jump_where_the_automaton_makes_a_step() {
+    let place = place();
+    // Steps of 20 s: 33 frames of 1.25 s lie over two of them, and begin in the middle of one.
+    let words = ["--frames", "8-40", "--fps", "4", "--speed", "5", "--set", "clouds.detail=0"];
+    render(&place, &[&["-o", "f-##.exr", "--float"], &words[..]].concat()).succeeded();
+    let frame = |index: usize| {
+        let path = place.path(&format!("f-{index:02}.exr"));
+        tyndall_io::read_exr(path).expect("a frame").0.rgba
+    };
+    let differences: Vec<f64> = (8..40)
+        .map(|index| {
+            let (now, next) = (frame(index), frame(index + 1));
+            let sum: f64 = now.iter().zip(&next).map(|(a, b)| f64::from((a[1] - b[1]).abs())).sum();
+            sum / now.len() as f64
+        })
+        .collect();
+    let mut sorted = differences.clone();
+    sorted.sort_by(f64::total_cmp);
+    let (median, worst) = (sorted[16], sorted[31]);
+    println!("from frame to frame {median:.2} cd/m2 in the median, {worst:.2} at most: {differences:.1?}");
+    assert!(median > 0.0, "the clouds move");
+    assert!(worst < 2.0 * median, "a jump: {differences:?}");
+}

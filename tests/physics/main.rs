@@ -5,6 +5,7 @@ mod aerial;
 mod background;
 mod cloud_air;
 mod cloud_files;
+mod cloud_outputs;
 mod cloud_pictures;
 mod cloud_shadows;
 mod clouds;
