@@ -7,6 +7,7 @@ use tyndall_scene::{CloudKind, DesertKind, Preset};
 
 use crate::{
     cloud_clock::CloudClock,
+    cloud_meter::CloudMeter,
     cloud_tools::CloudTools,
     desert_clock::DesertClock,
     desert_tools::DesertTools,
@@ -23,7 +24,7 @@ use crate::{
         gallery::Gallery,
         log, parameters, plots,
         time::TimePanel,
-        timings, validate,
+        timings, validate, validate_clouds,
     },
     sky_probe::{Sight, SkyProbe},
     stage::Stage,
@@ -58,6 +59,7 @@ pub(crate) struct Workbench {
     desert_tools: DesertTools,
     probe: SkyProbe,
     meter: ErrorMeter,
+    cloud_meter: CloudMeter,
     thoroughness: Thoroughness,
     /// Where the pointer was in the view last.
     cursor: Option<Sight>,
@@ -85,6 +87,7 @@ impl Workbench {
             desert_tools: DesertTools::default(),
             probe: SkyProbe::default(),
             meter: ErrorMeter::default(),
+            cloud_meter: CloudMeter::default(),
             thoroughness: Thoroughness::default(),
             cursor: None,
             filter: String::new(),
@@ -182,7 +185,12 @@ impl Workbench {
                 let at_rest = stage.as_ref().is_none_or(|stage| !stage.is_moving());
                 plots::show(ui, &mut self.probe, document.scene(), self.cursor, at_rest);
             }
-            Pane::Accuracy => validate::show(ui, &mut self.meter, &mut self.thoroughness, document.scene()),
+            Pane::Accuracy => {
+                let gpu = stage.as_ref().and_then(Stage::engine).map(|engine| &engine.gpu);
+                let clouds = (gpu, self.thoroughness);
+                validate_clouds::show(ui, &mut self.cloud_meter, clouds, document.scene());
+                validate::show(ui, &mut self.meter, &mut self.thoroughness, document.scene());
+            }
             Pane::Timings => {
                 let frames = stage.as_ref().map_or(0, Stage::frames);
                 timings::show(ui, stage.as_ref().and_then(Stage::engine), frames);

@@ -21,6 +21,7 @@ mod text_row;
 pub(crate) mod time;
 pub(crate) mod timings;
 pub(crate) mod validate;
+pub(crate) mod validate_clouds;
 pub(crate) mod wind;
 
 /// Room beside the contents of a list for its scroll bar.

@@ -2,11 +2,15 @@
 
 use egui::{Color32, Grid, ProgressBar, RichText, ScrollArea, Ui, vec2};
 use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points};
-use tyndall_scattering::validate::{Band, Statistics};
+use tyndall_scattering::validate::{Band, Report, Statistics};
 use tyndall_scene::{Orders, Scene};
 
 use super::plots::{few, quiet, short};
-use crate::error_meter::{ErrorMeter, Outcome, Subject, Thoroughness};
+use crate::error_meter::{self, ErrorMeter, Subject, Thoroughness};
+use crate::meter;
+
+/// A comparison of skies that has come to its end.
+type Outcome = meter::Outcome<Subject, Report>;
 
 /// Width of the table; the plot takes the rest.
 const TABLE_PT: f32 = 480.0;
@@ -50,7 +54,7 @@ fn controls(ui: &mut Ui, meter: &mut ErrorMeter, thoroughness: &mut Thoroughness
     };
     if ui.button("Compare").on_hover_text("Runs beside the frames; the window stays awake.").clicked() {
         let ctx = ui.ctx().clone();
-        meter.start(subject, *thoroughness, move || ctx.request_repaint());
+        error_meter::start(meter, subject, *thoroughness, move || ctx.request_repaint());
     }
     for choice in Thoroughness::ALL {
         let (name, hint) = choice.label();

@@ -4,12 +4,11 @@ use std::fmt::Write as _;
 
 use clap::builder::RangedU64ValueParser;
 use serde_json::{Value, json};
-use tyndall_clouds::Edges;
 use tyndall_gpu::Gpu;
-use tyndall_render::clouds::reference::{CloudAccuracy, CloudReference};
-use tyndall_render::environment::sun_above_air;
-use tyndall_render::{FrameFormat, FrameTarget, Renderer, RendererConfig};
-use tyndall_scene::{Orders, Scene, SkyKind};
+use tyndall_render::clouds::comparison::{CloudComparison, CloudVerdict};
+use tyndall_render::clouds::reference::CloudAccuracy;
+use tyndall_render::{FrameFormat, Renderer, RendererConfig};
+use tyndall_scene::{Orders, Scene};
 
 use crate::interrupt::Interrupt;
 use crate::progress::{Progress, ProgressFormat};
@@ -60,9 +59,6 @@ pub struct ValidateCloudsArguments {
 /// Everything that can be wrong with scene, options and device.
 pub(super) fn run(arguments: &ValidateCloudsArguments) -> Result<(), Failure> {
     let mut scene = arguments.scene.load()?;
-    [scene.image.width_px, scene.image.height_px] = arguments.size;
-    (scene.sky.kind, scene.clouds.detail, scene.cloud_grid.edges) = (SkyKind::Black, 0.0, Edges::Open);
-    scene.check()?;
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
     let progress = Progress::start(ProgressFormat::Human);
     let gpu = Gpu::open(&arguments.device.options())?;
@@ -71,43 +67,34 @@ pub(super) fn run(arguments: &ValidateCloudsArguments) -> Result<(), Failure> {
     let mut rows = Vec::new();
     for orders in [Orders::Single, Orders::All] {
         scene.clouds.orders = orders;
-        let picture = picture(&gpu, &mut renderer, &scene)?;
-        let accuracy = compare(arguments, &scene, &picture, (&progress, &interrupt))?;
+        let accuracy = compare(arguments, &scene, (&gpu, &mut renderer), (&progress, &interrupt))?;
         rows.push((orders, accuracy));
     }
     output::print(&if arguments.json { format!("{}\n", to_json(&rows)) } else { to_text(arguments, &rows) })
 }
 
-/// The frame's radiance (1/sr) under a sun of irradiance 1, in the green channel: clouds are white.
-fn picture(gpu: &Gpu, renderer: &mut Renderer, scene: &Scene) -> Result<Vec<f64>, Failure> {
-    let size_px = [scene.image.width_px, scene.image.height_px];
-    let mut target = FrameTarget::new(gpu, size_px, renderer.config())?;
-    renderer.render(gpu, scene, &mut target)?;
-    let [_, green, _] = sun_above_air(scene)?;
-    if green <= 0.0 {
-        return Err(Failure::Usage("clouds are judged in sunlight, and sun.brightness = 0 puts it out".to_owned()));
-    }
-    Ok(target.read_radiance(gpu)?.iter().map(|pixel| f64::from(pixel[1]) / green).collect())
-}
-
 fn compare(
     arguments: &ValidateCloudsArguments,
     scene: &Scene,
-    picture: &[f64],
+    drawing: (&Gpu, &mut Renderer),
     (progress, interrupt): (&Progress, &Interrupt),
 ) -> Result<CloudAccuracy, Failure> {
-    let Some(reference) = CloudReference::new(scene)? else {
-        return Err(Failure::Usage("the scene has no clouds; `clouds.kind` = \"automaton\" makes some".to_owned()));
+    let ValidateCloudsArguments { size, paths, seed, bin, .. } = *arguments;
+    let comparison = CloudComparison { size_px: size, paths, seed, bin };
+    let mut told = Ok(());
+    let mut tell = |share: f64| {
+        told = progress.share("walking at random", share).and_then(|()| interrupt.check());
+        told.is_ok()
     };
-    let [width_px, height_px] = arguments.size;
-    let mut truth = Vec::with_capacity(picture.len());
-    for y in 0..height_px {
-        progress.share("walking at random", f64::from(y) / f64::from(height_px))?;
-        interrupt.check()?;
-        truth.extend(reference.row(y, (arguments.paths, arguments.seed)));
-    }
-    CloudAccuracy::of(picture, &truth, width_px as usize, arguments.bin)
-        .ok_or_else(|| Failure::Usage("no cloud in sunlight is in the camera's view".to_owned()))
+    let verdict = comparison.run(drawing, scene, &mut tell)?;
+    told?;
+    let refused = match verdict {
+        CloudVerdict::Judged(accuracy) => return Ok(accuracy),
+        CloudVerdict::NoClouds => "the scene has no clouds; `clouds.kind` = \"automaton\" makes some",
+        CloudVerdict::NoSunlight => "clouds are judged in sunlight, and sun.brightness = 0 puts it out",
+        CloudVerdict::OutOfView | CloudVerdict::Stopped => "no cloud in sunlight is in the camera's view",
+    };
+    Err(Failure::Usage(refused.to_owned()))
 }
 
 fn to_json(rows: &[(Orders, CloudAccuracy)]) -> Value {

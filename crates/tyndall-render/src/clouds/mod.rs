@@ -9,6 +9,7 @@
 
 mod billows;
 mod building;
+pub mod comparison;
 pub mod file;
 pub mod gpu_data;
 mod half;
