@@ -11,16 +11,27 @@ struct GroundFragment {
     @builtin(frag_depth) depth: f32,  // reversed
 }
 
-/// Reflection relative to the mean at a point [m] seen under a pixel of `footprint_m`; fades where squares are smaller.
-fn ground_pattern(point: vec2<f32>, footprint_m: f32) -> f32 {
+/// Mean over boxes of `width`, along each axis, of waves that are 1 from 0 to 1, -1 from 1 to 2, and so on.
+fn ground_waves(at: vec2<f32>, width: vec2<f32>) -> vec2<f32> {
+    // Narrow boxes meet one edge at most, whose distance is exact however far the origin is.
+    let edge = round(at);
+    let rises = 1.0 - 2.0 * abs(edge - 2.0 * floor(0.5 * edge));
+    let narrow = rises * clamp((at - edge) / (0.5 * width), vec2<f32>(-1.0), vec2<f32>(1.0));
+    // Of wide ones the integral's difference, a wave of triangles.
+    let ends = vec4<f32>(at + 0.5 * width, at - 0.5 * width);
+    let sums = 1.0 - abs(1.0 - (ends - 2.0 * floor(0.5 * ends)));
+    return select((sums.xy - sums.zw) / width, narrow, width < vec2<f32>(0.5));
+}
+
+/// Reflection relative to the mean at a point [m] under a pixel as wide as `footprint_m` east and north: the mean of the squares under it.
+fn ground_pattern(point: vec2<f32>, footprint_m: vec2<f32>) -> f32 {
     if (sky_view.ground_pattern == 0u) {
         return 1.0;
     }
-    let tile = point / sky_view.ground_tile_m;
-    // Smooth squares: steps of one footprint's width.
-    let sharpness = max(footprint_m / sky_view.ground_tile_m, 1e-3);
-    let wave = clamp(sin(tile * SKY_PI) / sharpness, vec2<f32>(-1.0), vec2<f32>(1.0));
-    return 1.0 + 0.35 * wave.x * wave.y * (1.0 - smoothstep(0.25, 1.0, sharpness));
+    // Half a pixel more: edges on pixels' borders and within them look alike, and no beats arise.
+    let width = max(1.5 * footprint_m / sky_view.ground_tile_m, vec2<f32>(1e-3));
+    let waves = ground_waves(point / sky_view.ground_tile_m, width) * (1.0 - smoothstep(vec2<f32>(1.0), vec2<f32>(2.0), width));
+    return 1.0 + 0.35 * waves.x * waves.y;
 }
 
 /// Columns [m] between the observer and the ground in a direction.
@@ -67,7 +78,9 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     }
     let nu = sky_sun_cosine(direction);
     let mu_sun = mu_along(radius, h, sky_view.sun_direction.z, nu, t, 0.0);
-    let footprint_m = frame_pixel_angle(plane) * t / max(-direction.z, 1e-4);
+    let across_m = frame_pixel_angle(plane) * t;
+    let along = abs(direction.xy) / max(length(direction.xy), 1e-6);
+    let footprint_m = across_m * (along / max(-direction.z, 1e-4) + along.yx);
     let place = frame.position_m.xy + eye.xy + t * direction.xy;
     let shade = cloud_shade_at(place, 0.0);
     var light = ground_shaded(ground_sun_irradiance(mu_sun), ground_sky_irradiance(mu_sun), shade);
