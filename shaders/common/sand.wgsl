@@ -26,10 +26,11 @@ fn sand_facets(light: f32, view: f32, between: f32, variance: f32) -> f32 {
     return a + b * s / t;
 }
 
-/// Factor on light that goes back to where it came from (Hapke 1986): cosine between light and view.
+/// Factor on light that goes back to where it came from (Hapke 1986), at the cost of other directions: cosine between light
+/// and view.
 fn sand_backscatter(between: f32) -> f32 {
     let half_tangent = sqrt(max(1.0 - between, 0.0) / max(1.0 + between, 1e-4));
-    return 1.0 + 0.3 / (1.0 + half_tangent / 0.12);
+    return 0.927 + 0.2781 / (1.0 + half_tangent / 0.12);
 }
 
 /// Mirror-like reflection (1/sr, times the cosine of the light) of facets whose slopes are distributed around a mean with a

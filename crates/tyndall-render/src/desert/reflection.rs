@@ -32,11 +32,12 @@ pub fn sand_facets(light: f64, view: f64, between: f64, variance: f64) -> f64 {
     a + b * s / t
 }
 
-/// Factor on light that goes back to where it came from (Hapke 1986): cosine between light and view.
+/// Factor on light that goes back to where it came from (Hapke 1986): cosine between light and view. What goes back is missing
+/// in other directions, so that white sand seen from straight above sends out what falls on it.
 #[must_use]
 pub fn sand_backscatter(between: f64) -> f64 {
     let half_tangent = ((1.0 - between).max(0.0) / (1.0 + between).max(1e-4)).sqrt();
-    1.0 + 0.3 / (1.0 + half_tangent / 0.12)
+    0.927 + 0.2781 / (1.0 + half_tangent / 0.12)
 }
 
 /// Mirror-like reflection (1/sr, times the cosine of the light) of facets whose slopes are normally distributed around a mean
@@ -101,5 +102,69 @@ mod tests {
             }
         }
         assert!((sum - 1.0).abs() < 1e-6, "{sum}");
+    }
+
+    /// Integral over the hemisphere of what light from a direction (cosines to the normal and to the view) becomes.
+    fn over_hemisphere(view: f64, of: impl Fn(f64, f64, [f64; 3]) -> f64) -> f64 {
+        let (rings, sectors) = (400, 400);
+        let view_sine = (1.0 - view * view).sqrt();
+        let mut sum = 0.0;
+        for ring in 0..rings {
+            let light = (f64::from(ring) + 0.5) / f64::from(rings);
+            let light_sine = (1.0 - light * light).sqrt();
+            for sector in 0..sectors {
+                let azimuth = std::f64::consts::TAU * (f64::from(sector) + 0.5) / f64::from(sectors);
+                let direction = [light_sine * azimuth.cos(), light_sine * azimuth.sin(), light];
+                sum += of(light, view_sine * direction[0] + view * light, direction);
+            }
+        }
+        sum * std::f64::consts::TAU / f64::from(rings * sectors)
+    }
+
+    #[test]
+    fn white_sand_sends_out_no_more_light_than_falls_on_it() {
+        for view in [0.02, 0.1, 0.3, 0.5, 0.8, 0.95, 1.0] {
+            for variance in [0.0, 0.02, 0.07, 0.147, 0.3, 0.62] {
+                let lit = |light: f64, between: f64, _| {
+                    light * sand_facets(light, view, between, variance) * sand_backscatter(between)
+                };
+                let out = over_hemisphere(view, lit) / std::f64::consts::PI;
+                assert!(out <= 1.0, "view {view}, variance {variance}: {out}");
+                assert!(out > 0.6, "view {view}, variance {variance}: {out} is too dark for white sand");
+            }
+        }
+    }
+
+    #[test]
+    fn the_mirrors_of_sand_send_out_no_more_light_than_falls_on_it() {
+        for view in [0.02, 0.1, 0.3, 0.5, 0.8, 1.0_f64] {
+            for variance in [0.04, 0.147, 0.6] {
+                let sine = (1.0 - view * view).sqrt();
+                let out = over_hemisphere(view, |_, _, light| {
+                    let sum = [light[0] + sine, light[1], light[2] + view];
+                    let length = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]).sqrt();
+                    let halfway = sum.map(|part| part / length);
+                    let view_half = halfway[0] * sine + halfway[2] * view;
+                    sand_mirror(halfway, [0.0; 2], [variance, 0.0, variance], view, view_half)
+                });
+                assert!(out <= 1.0, "view {view}, variance {variance}: {out}");
+            }
+        }
+    }
+
+    #[test]
+    fn light_and_view_may_be_exchanged() {
+        for (light, view, between) in [(0.2, 0.9, 0.4), (0.5, 0.7, -0.2), (0.31, 0.3, 0.9), (0.05, 1.0, 0.05)] {
+            for variance in [0.0, 0.147, 0.6] {
+                let [there, back] = [[light, view], [view, light]].map(|[a, b]| sand_facets(a, b, between, variance));
+                assert!((there - back).abs() < 1e-15, "facets, {light} and {view}: {there} and {back}");
+            }
+            if light.min(view) > 0.15 {
+                // What is computed is reflection times the cosine of the light.
+                let mirror = |view: f64| sand_mirror([0.3, 0.1, 0.9], [0.1, 0.0], [0.1, 0.02, 0.2], view, 0.8);
+                let [there, back] = [mirror(view) / light, mirror(light) / view];
+                assert!((there / back - 1.0).abs() < 1e-12, "mirrors, {light} and {view}: {there} and {back}");
+            }
+        }
     }
 }
