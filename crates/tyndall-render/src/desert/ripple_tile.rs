@@ -77,3 +77,106 @@ fn halve(finer: &[Moments], width: usize) -> Vec<Moments> {
     };
     (0..half * half).map(mean).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use super::*;
+
+    /// Texels of a side.
+    const SIDE: usize = 128;
+
+    /// Mean over a level of something made of a texel's moments.
+    fn mean(level: &[Moments], of: impl Fn([f64; 5]) -> f64) -> f64 {
+        level.iter().map(|texel| of(texel.map(f64::from))).sum::<f64>() / level.len() as f64
+    }
+
+    /// Sines of a number of waves along x, of any height.
+    #[expect(clippy::cast_possible_truncation, reason = "heights are f32")]
+    fn sine(waves: f64) -> RippleTile {
+        let height = |index: usize| (7.0 * (TAU * waves * (index % SIDE) as f64 / SIDE as f64).sin()) as f32;
+        RippleTile::of_heights(&(0..SIDE * SIDE).map(height).collect::<Vec<_>>(), SIDE)
+    }
+
+    fn real() -> RippleTile {
+        let params = RippleParams { side: tyndall_dunes::Side::Cells128, ..RippleParams::default() };
+        RippleTile::new(&params, 600).expect("the default parameters are valid")
+    }
+
+    #[test]
+    fn a_sine_has_the_slopes_of_its_closed_form_on_every_level() {
+        for waves in [8.0, 16.0] {
+            let tile = sine(waves);
+            assert!((tile.scale.ripples - waves).abs() < 0.02 * waves, "{waves} waves: {}", tile.scale.ripples);
+            let phase = TAU * waves / SIDE as f64;
+            // A wave 16 times as long as high is pi / 16 steep; differences over two cells see sin(phase) / phase of it.
+            let steepest = PI / TILE_INDEX * (phase.sin() / phase) * (waves / tile.scale.ripples);
+            // Levels with four texels of a wave or more, over which squares of a sine have their mean.
+            let levels = tile.levels.iter().enumerate();
+            for (number, level) in levels.take_while(|(number, _)| f64::from(4 << number) * waves <= SIDE as f64) {
+                // The mean of 2^number texels of a sine, relative to the sine.
+                let cells = f64::from(1_u32 << number);
+                let left = (0.5 * cells * phase).sin() / (cells * (0.5 * phase).sin());
+                let (between, within) =
+                    (0.5 * (steepest * left).powi(2), 0.5 * steepest * steepest * (1.0 - left * left));
+                let found = mean(level, |m| m[0] * m[0]);
+                assert!((found - between).abs() < 1e-6, "{waves} waves, level {number}: {found}, not {between}");
+                let found = mean(level, |m| m[2] - m[0] * m[0]);
+                assert!((found - within).abs() < 1e-6, "{waves} waves, level {number}: spread {found}, not {within}");
+                let across = mean(level, |m| m[1].abs() + m[3] + m[4].abs());
+                assert!(across < 1e-12, "{waves} waves, level {number}: the sine has slopes across, {across}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_level_keeps_mean_slopes_and_their_mean_products() {
+        for (name, tile) in [("sine", sine(8.0)), ("ripples", real())] {
+            let finest = &tile.levels[0];
+            let steepness = mean(finest, |m| m[2] + m[3]);
+            assert!(steepness > 1e-3, "{name} are not flat: {steepness}");
+            // Each level is rounded to f32 once more.
+            let allowed = [steepness.sqrt(), steepness.sqrt(), steepness, steepness, steepness].map(|size| 1e-6 * size);
+            for (number, level) in tile.levels.iter().enumerate() {
+                for (part, allowed) in allowed.into_iter().enumerate() {
+                    let [found, wanted] = [level, finest].map(|level| mean(level, |m| m[part]));
+                    assert!(
+                        (found - wanted).abs() < allowed,
+                        "{name}, level {number}, part {part}: {found}, not {wanted}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_texel_of_any_level_holds_mean_and_covariance_of_the_finest_texels_under_it() {
+        let tile = real();
+        for (number, level) in tile.levels.iter().enumerate() {
+            let (cells, width) = (1 << number, SIDE >> number);
+            for (index, texel) in level.iter().enumerate() {
+                let [x, y] = [cells * (index % width), cells * (index / width)];
+                let under = (0..cells * cells).map(|k| tile.levels[0][(y + k / cells) * SIDE + x + k % cells]);
+                let slopes: Vec<[f64; 2]> = under.map(|m| [f64::from(m[0]), f64::from(m[1])]).collect();
+                let over = |of: &dyn Fn(&[f64; 2]) -> f64| slopes.iter().map(of).sum::<f64>() / slopes.len() as f64;
+                let middle = [over(&|s| s[0]), over(&|s| s[1])];
+                let spread = |a: usize, b: usize| over(&|s| (s[a] - middle[a]) * (s[b] - middle[b]));
+                let m = texel.map(f64::from);
+                let found = [m[0], m[1], m[2] - m[0] * m[0], m[3] - m[1] * m[1], m[4] - m[0] * m[1]];
+                let wanted = [middle[0], middle[1], spread(0, 0), spread(1, 1), spread(0, 1)];
+                for (found, wanted) in found.iter().zip(wanted) {
+                    assert!((found - wanted).abs() < 1e-6, "level {number}, texel {index}: {found}, not {wanted}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_mean_slope_of_a_tile_is_level_and_ripples_stand_across_the_wind() {
+        let tile = real();
+        let [top] = tile.levels.last().expect("levels")[..] else { panic!("the last level is one texel") };
+        assert!(top[0].abs() < 1e-6 && top[1].abs() < 1e-6, "a bed that repeats rises nowhere: {top:?}");
+        assert!(top[2] > 2.0 * top[3], "slopes along the wind {} and across it {}", top[2], top[3]);
+    }
+}
