@@ -56,7 +56,9 @@ fn dune_radiance(pixel: DunePixel, albedo: vec3<f32>) -> vec3<f32> {
     let lit = sand_mean_cosine(nu, max(variance, 0.0));
     let view = max(dot(n, pixel.view), 0.02);
     let between = dot(sun, pixel.view);
-    let light = textureSampleLevel(dune_light, desert_sampler, desert_map_place(pixel.place), log2(max(pixel.wide_m / desert.cell_m, 1.0)));
+    let texels_a_cell = f32(textureDimensions(dune_light).x) / desert.size.x;
+    let level = log2(max(pixel.wide_m * texels_a_cell / desert.cell_m, 1.0));
+    let light = textureSampleLevel(dune_light, desert_sampler, desert_map_place(pixel.place), level);
     let shade = cloud_shade_at(pixel.place, pixel.altitude);
     let sunlight = sky_light_sun(pixel.altitude, sun.z);
     let direct = sunlight * dune_sun(light.x, sun) * shade.direct;
@@ -67,8 +69,8 @@ fn dune_radiance(pixel: DunePixel, albedo: vec3<f32>) -> vec3<f32> {
     let scattered = sunlight * max(sun.z, 0.0) * (0.5 + 0.5 * n.z) * shade.diffuse;
     let sky = sky_light_irradiance(pixel.altitude, sun.z, n.z, cos_phi, nu) * shade.sky + scattered;
     // What sand hides of the sky it replaces by its own light.
-    let level = sky_light_irradiance(pixel.altitude, sun.z, 1.0, 1.0, sun.z) * shade.sky + scattered;
-    let thrown = desert.bounce * albedo * (sunlight * shade.direct * light.z + level);
+    let level_sky = sky_light_irradiance(pixel.altitude, sun.z, 1.0, 1.0, sun.z) * shade.sky + scattered;
+    let thrown = desert.bounce * albedo * (sunlight * shade.direct * light.z + level_sky);
     let from_around = mix(thrown, sky, clamp(light.y, 0.0, 1.0));
     let halfway = normalize(sun + pixel.view);
     let rough = up + vec3<f32>(desert.facets, 0.0, desert.facets) * 0.6;

@@ -9,6 +9,7 @@ mod cloud_outputs;
 mod cloud_pictures;
 mod cloud_shadows;
 mod clouds;
+mod desert;
 mod dome;
 mod gpu_orders;
 mod gpu_tables;

@@ -19,6 +19,7 @@ pub mod report;
 pub mod ripple_tile;
 pub mod smooth;
 mod source;
+pub mod sun_horizon;
 mod textures;
 
 use std::sync::Arc;
@@ -179,8 +180,11 @@ impl DesertRenderer {
         let sun = scene.sun_direction()?;
         let key = (of_bed, [sun.azimuth_rad, sun.elevation_rad]);
         if self.light.as_ref().is_none_or(|(held, _)| *held != key) {
-            let map = light::light_map(bed, std::f64::consts::FRAC_PI_2 - sun.azimuth_rad, sun.elevation_rad)?;
-            self.light = Some((key, light_texture(gpu, bed, &map)?));
+            let from_east_rad = std::f64::consts::FRAC_PI_2 - sun.azimuth_rad;
+            let map = light::light_map(bed, from_east_rad, sun.elevation_rad)?;
+            let fineness = sun_horizon::fineness(bed.heights.size());
+            let map = sun_horizon::with_fine_horizons(bed, &map, from_east_rad, fineness)?;
+            self.light = Some((key, light_texture(gpu, bed, fineness, &map)?));
         }
         Ok(())
     }

@@ -35,9 +35,9 @@ impl BedTextures {
     }
 }
 
-/// The map of a sun's light.
-pub(super) fn light_texture(gpu: &Gpu, bed: &Bed, light: &[[f32; 4]]) -> Result<Texture, RenderError> {
-    of_halves(gpu, "light on the desert", bed.heights.size(), light)
+/// The map of a sun's light, `fineness` times as fine as the field.
+pub(super) fn light_texture(gpu: &Gpu, bed: &Bed, fineness: usize, light: &[[f32; 4]]) -> Result<Texture, RenderError> {
+    of_halves(gpu, "light on the desert", bed.heights.size().map(|count| count * fineness), light)
 }
 
 /// The tile of ripples: slopes with squares of them, and the mixed product.
