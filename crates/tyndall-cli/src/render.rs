@@ -48,8 +48,10 @@ Examples:
 Units are in the names of the parameters (altitude_m, elevation_deg);
 `tyndall params` lists them all. EXR holds the light of the scene, linear
 Rec.709 in cd/m2, with depth in metres as Z; NPY the same light as an array
-of rows, columns and channels in 32-bit floats; PNG and JPEG hold the developed
-picture in sRGB.";
+of rows, columns and three channels (red, green, blue; not luminance, which is
+0.2126 R + 0.7152 G + 0.0722 B) in 32-bit floats. Compare one channel of it with
+a grey picture of another program: a[:, :, 1], in 1/sr after --unit-sun. PNG and
+JPEG hold the developed picture in sRGB.";
 
 /// What `tyndall render` takes.
 #[derive(Clone, Debug, clap::Args)]

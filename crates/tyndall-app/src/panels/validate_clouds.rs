@@ -60,15 +60,13 @@ fn figures(ui: &mut Ui, accuracy: &CloudAccuracy, seconds: f64) {
         ("Correlation", format!("{:.3}", accuracy.correlation)),
         ("Noise of the walks' mean", format!("{:.2} %", 100.0 * accuracy.noise)),
     ];
-    ui.horizontal_wrapped(|ui| {
-        for half in rows.chunks(3) {
-            Grid::new(half[0].0).num_columns(2).spacing([10.0, 2.0]).show(ui, |ui| {
-                for (caption, text) in half {
-                    ui.weak(*caption);
-                    ui.label(text);
-                    ui.end_row();
-                }
-            });
+    Grid::new("figures of clouds").num_columns(4).spacing([14.0, 2.0]).show(ui, |ui| {
+        for pair in rows.chunks(2) {
+            for (caption, text) in pair {
+                ui.weak(*caption);
+                ui.label(text);
+            }
+            ui.end_row();
         }
     });
     ui.weak(format!(
