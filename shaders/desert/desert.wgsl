@@ -24,7 +24,8 @@ struct Desert {
     bounce: f32,             // 1, factor on the light that sand throws on sand
     tile_texels: f32,        // of a side of the tile
     hexagon_m: f32,          // side of the triangles between which patches of ripples are blended
-    padding: vec2<f32>,
+    moonlit: u32,            // 1 when the moon casts the shadows, not the sun
+    padding: u32,
 }
 @group(2) @binding(0) var<storage, read> desert: Desert;
 

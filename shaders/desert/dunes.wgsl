@@ -4,6 +4,7 @@
 // @import common/sand.wgsl
 // @import desert/bed.wgsl
 // @import desert/glints.wgsl
+// @import desert/moonlight.wgsl
 // @import desert/ripples.wgsl
 // @import landscape/place.wgsl
 // @import sky/light_lookup.wgsl
@@ -29,6 +30,7 @@ struct DunePixel {
     sun: vec3<f32>,
     footprint_m: f32,
     wide_m: f32,
+    facing: f32,           // cosine of the view to the dune's slope
 }
 
 @vertex
@@ -46,14 +48,24 @@ fn dune_sun(horizon: f32, sun: vec3<f32>) -> f32 {
     return smoothstep(-1.0, 1.0, over / desert.sun_half_width);
 }
 
+/// What sand sends to the camera of a lamp's light, relative to a white even surface that faces the lamp.
+fn dune_facing(pixel: DunePixel, lamp: vec3<f32>) -> f32 {
+    let n = pixel.normal;
+    let up = pixel.covariance;
+    let nu = dot(n, lamp);
+    let between = dot(lamp, pixel.view);
+    let variance = (lamp.x * lamp.x * up.x + 2.0 * lamp.x * lamp.y * up.y + lamp.y * lamp.y * up.z) * n.z * n.z;
+    let view = max(dot(n, pixel.view), 0.02);
+    let facets = sand_facets(max(nu, 0.0), view, between, desert.facets + 0.5 * (up.x + up.z));
+    return sand_mean_cosine(nu, max(variance, 0.0)) * facets * sand_backscatter(between);
+}
+
 /// Radiance (cd/m^2) that sand sends to the camera.
 fn dune_radiance(pixel: DunePixel, albedo: vec3<f32>) -> vec3<f32> {
     let n = pixel.normal;
     let sun = pixel.sun;
     let nu = dot(n, sun);
     let up = pixel.covariance;
-    let variance = (sun.x * sun.x * up.x + 2.0 * sun.x * sun.y * up.y + sun.y * sun.y * up.z) * n.z * n.z;
-    let lit = sand_mean_cosine(nu, max(variance, 0.0));
     let view = max(dot(n, pixel.view), 0.02);
     let between = dot(sun, pixel.view);
     let texels_a_cell = f32(textureDimensions(dune_light).x) / desert.size.x;
@@ -61,9 +73,10 @@ fn dune_radiance(pixel: DunePixel, albedo: vec3<f32>) -> vec3<f32> {
     let light = textureSampleLevel(dune_light, desert_sampler, desert_map_place(pixel.place), level);
     let shade = cloud_shade_at(pixel.place, pixel.altitude);
     let sunlight = sky_light_sun(pixel.altitude, sun.z);
-    let direct = sunlight * dune_sun(light.x, sun) * shade.direct;
-    let facets = sand_facets(max(nu, 0.0), view, between, desert.facets + 0.5 * (up.x + up.z));
-    let from_sun = direct * lit * facets * sand_backscatter(between);
+    let lamp = select(sun, moon.direction, desert.moonlit == 1u);
+    let seen = dune_sun(light.x, lamp) * shade.direct;
+    let direct = sunlight * seen;
+    let from_sun = direct * dune_facing(pixel, sun);
     let sines = sqrt(max((1.0 - n.z * n.z) * (1.0 - sun.z * sun.z), 1e-12));
     let cos_phi = clamp((nu - n.z * sun.z) / sines, -1.0, 1.0);
     let scattered = sunlight * max(sun.z, 0.0) * (0.5 + 0.5 * n.z) * shade.diffuse;
@@ -71,13 +84,19 @@ fn dune_radiance(pixel: DunePixel, albedo: vec3<f32>) -> vec3<f32> {
     // What sand hides of the sky it replaces by its own light.
     let level_sky = sky_light_irradiance(pixel.altitude, sun.z, 1.0, 1.0, sun.z) * shade.sky + scattered;
     let thrown = desert.bounce * albedo * (sunlight * shade.direct * light.z + level_sky);
-    let from_around = mix(thrown, sky, clamp(light.y, 0.0, 1.0));
+    let open = clamp(light.y, 0.0, 1.0);
+    let from_around = mix(thrown, sky, open);
+    var from_moon = vec3<f32>(0.0);
+    // A loop, as software adapters run both sides of a branch.
+    for (var nights = moon.skylight; nights > 0u; nights--) { // loops: 1
+        from_moon += moonlight_on_sand(seen * dune_facing(pixel, moon.direction), open * (0.5 + 0.5 * n.z));
+    }
     let halfway = normalize(sun + pixel.view);
     let rough = up + vec3<f32>(desert.facets, 0.0, desert.facets) * 0.6;
     let mirror = sand_mirror(halfway, pixel.slope, rough, view, dot(halfway, pixel.view));
-    let glint = mix(1.0, glints_at(pixel.place, pixel.footprint_m, halfway), desert.glints);
+    let glint = mix(1.0, glints_at(pixel.place, pixel.footprint_m, pixel.view.xy / max(length(pixel.view.xy), 1e-4), pixel.facing, halfway), desert.glints);
     let lit_side = smoothstep(0.0, 0.1, nu);
-    return albedo * (from_sun + from_around) / SKY_PI + desert.shine * direct * lit_side * mirror * glint;
+    return albedo * (from_sun + from_around + from_moon) / SKY_PI + desert.shine * direct * lit_side * mirror * glint;
 }
 
 @fragment
@@ -98,7 +117,7 @@ fn dunes_fragment(vertex: DuneVertex) -> @location(0) vec4<f32> {
     let slope = bed.yz + ripples.slope;
     let normal = normalize(vec3<f32>(-slope, 1.0));
     let sun = place_sun(vertex.from_camera);
-    let pixel = DunePixel(place, max(bed.x, 0.0), normal, slope, ripples.covariance, view, sun, pixel_m, wide_m);
+    let pixel = DunePixel(place, max(bed.x, 0.0), normal, slope, ripples.covariance, view, sun, pixel_m, wide_m, facing);
     let cover = wind.w * desert_inside(place);
     let radiance = dune_radiance(pixel, mix(desert.ground, desert.albedo, cover));
     let air = aerial_seen(plane, distance, sky_sun_cosine(-view));

@@ -35,6 +35,7 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "desert/dunes.wgsl",
     "desert/glints.wgsl",
     "desert/mesh.wgsl",
+    "desert/moonlight.wgsl",
     "desert/ripples.wgsl",
     "dunes/cells.wgsl",
     "dunes/dunes.wgsl",

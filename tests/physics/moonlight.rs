@@ -63,6 +63,36 @@ fn moonlit_air_and_ground_are_sunlit_ones_dimmed() {
     assert!(worst < 0.12, "{worst}");
 }
 
+/// A small desert without ripples, seen from above its crests.
+const DUNES: [(&str, &str); 9] = [
+    ("desert.kind", "dunes"),
+    ("desert.steps", "300"),
+    ("dunes.side", "128"),
+    ("dunes.sand_cells", "3"),
+    ("sand.ripples", "none"),
+    ("sand.shine", "0"),
+    ("camera.altitude_m", "8"),
+    ("camera.pitch_deg", "-20"),
+    ("camera.heading_deg", "70"),
+];
+
+#[test]
+fn moonlit_dunes_are_sunlit_ones_dimmed_with_the_same_shadows() {
+    let mut studio = Studio::new();
+    let by_moon = studio.radiance(&moon("20", "0", &DUNES), [32, 32]);
+    let sunny = [("sun.elevation_deg", "20"), ("sun.azimuth_deg", "0"), ("stars.visible", "false")];
+    let by_sun = scene("noon", &[&DUNES[..], &sunny, &[("stars.airglow_cd_m2", "0")]].concat());
+    let by_sun = studio.radiance(&by_sun, [32, 32]);
+    let want = moon_illuminance_lux(0.0) / tyndall_core::spectrum::solar_illuminance_lux();
+    let ratios = by_moon.into_iter().zip(by_sun).map(|(moon, sun)| luminance(moon) / luminance(sun) / want);
+    let mut ratios: Vec<f64> = ratios.collect();
+    ratios.sort_by(f64::total_cmp);
+    let [low, middle, high] = [1, 10, 19].map(|part| ratios[ratios.len() * part / 20]);
+    println!("moonlit against sunlit dunes: {low:.2} to {high:.2}, median {middle:.2}");
+    // Neither sand nor air throws moonlight on sand, which is up to a third of the light in the shade.
+    assert!((middle - 1.0).abs() < 0.15 && low > 0.5 && high < 1.2, "{low} to {high}, median {middle}");
+}
+
 #[test]
 fn a_moon_that_is_off_or_beside_a_high_sun_changes_no_pixel_but_its_disc() {
     let mut studio = Studio::new();

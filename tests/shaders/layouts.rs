@@ -213,6 +213,7 @@ fn desert() -> (&'static str, StructLayout) {
             bounce,
             tile_texels,
             hexagon_m,
+            moonlit,
             padding,
         }),
     )

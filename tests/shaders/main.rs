@@ -2,6 +2,7 @@
 //! with its Rust twin.
 
 mod documentation;
+mod glints;
 mod layouts;
 mod loops;
 mod modules;

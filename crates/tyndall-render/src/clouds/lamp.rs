@@ -1,4 +1,4 @@
-//! Which light shines on the clouds: the sun, and at night the moon.
+//! Which light casts the shadows of clouds and dunes: the sun, and at night the moon.
 
 use tyndall_scene::Scene;
 
@@ -7,15 +7,15 @@ use crate::RenderError;
 /// Sine of the sun's elevation, 4 degrees below the horizon, under which it lights no cloud below 15 km any more.
 const NIGHT_SINE: f64 = -0.07;
 
-/// The light that casts the clouds' shadows.
+/// The light that casts shadows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Lamp {
+pub(crate) struct Lamp {
     /// Direction to it: east, north, up.
-    pub(super) direction: [f64; 3],
+    pub(crate) direction: [f64; 3],
     /// Angular radius (rad) of its disc.
-    pub(super) radius_rad: f64,
+    pub(crate) radius_rad: f64,
     /// Whether it is the moon.
-    pub(super) is_moon: bool,
+    pub(crate) is_moon: bool,
 }
 
 impl Lamp {
@@ -23,7 +23,7 @@ impl Lamp {
     ///
     /// # Errors
     /// When the scene has no sun position.
-    pub(super) fn of(scene: &Scene) -> Result<Self, RenderError> {
+    pub(crate) fn of(scene: &Scene) -> Result<Self, RenderError> {
         let sun = scene.sun_direction()?.unit();
         if sun.z < NIGHT_SINE
             && let Some(moon) = scene.moon()?.filter(|moon| moon.direction.z > 0.0)

@@ -14,7 +14,7 @@ pub mod file;
 pub mod gpu_data;
 mod half;
 pub(crate) mod in_air;
-mod lamp;
+pub(crate) mod lamp;
 mod maker;
 pub mod reference;
 mod report;

@@ -30,7 +30,8 @@ pub struct Desert {
     pub bounce: f32,
     pub tile_texels: f32,
     pub hexagon_m: f32,
-    pub padding: [f32; 2],
+    pub moonlit: u32,
+    pub padding: u32,
 }
 
 /// Half the width (rad) over which a shadow's edge fades: the sun's radius, and what the air's glow around it adds.
@@ -43,10 +44,11 @@ pub(super) const TILE_INDEX: f64 = 16.0;
 const RIPPLES_A_PATCH: f64 = 14.0;
 
 impl Desert {
-    /// From a scene with a field of so many cells, its tile of ripples and the mesh of a view.
+    /// From a scene with a field of so many cells, its tile of ripples, the mesh of a view, and the light that casts its
+    /// shadows.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
-    pub fn new(scene: &Scene, size: [usize; 2], tile: TileScale, mesh: &DesertMesh) -> Self {
+    pub fn new(scene: &Scene, size: [usize; 2], tile: TileScale, mesh: &DesertMesh, is_moonlit: bool) -> Self {
         let sand = &scene.sand;
         Self {
             albedo: [sand.red, sand.green, sand.blue].map(|albedo| albedo as f32),
@@ -74,7 +76,8 @@ impl Desert {
             bounce: sand.bounce as f32,
             tile_texels: tile.texels as f32,
             hexagon_m: (RIPPLES_A_PATCH * sand.ripple_length_m) as f32,
-            padding: [0.0; 2],
+            moonlit: u32::from(is_moonlit),
+            padding: 0,
         }
     }
 }

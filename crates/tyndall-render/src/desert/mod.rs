@@ -5,7 +5,9 @@
 //! ripples are slopes ([`ripple_tile`]). The sun's shadow and the sky's openness come from horizons of the field, which a
 //! periodic field repeats to the planet's horizon.
 //!
-//! Not done: ripples do not change the outline of the sand or cast shadows; the moon does not light it.
+//! At night the moon lights it and casts the shadows.
+//!
+//! Not done: ripples do not change the outline of the sand or cast shadows.
 
 pub mod bed;
 mod building;
@@ -29,6 +31,7 @@ use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture};
 use tyndall_scene::Scene;
 
+use crate::clouds::lamp::Lamp;
 use crate::landscape::LandscapeSurroundings;
 use crate::sky::{SkyLightReach, TableBuilding};
 use crate::target::DEPTH_FORMAT;
@@ -55,7 +58,7 @@ pub struct DesertRenderer {
     /// Textures of the tile of ripples, and its revision.
     tile: Option<(u64, [Texture; 2])>,
     tile_sampler: wgpu::Sampler,
-    /// Light of the sun, with the bed's revision and the sun's direction.
+    /// Light of the sun or the moon, with the bed's revision and the direction to it (azimuth from east, elevation).
     light: Option<((u64, [f64; 2]), Texture)>,
     vertices: Option<Buffer>,
     /// What the vertices were computed for, and from where.
@@ -160,15 +163,16 @@ impl DesertRenderer {
     ) -> Result<Option<DesertDrawData>, RenderError> {
         let (Some(bed), Some(tile)) = (self.source.bed(), self.source.tile()) else { return Ok(None) };
         let mesh = mesh(scene, view, size_px, bed);
-        let uniform = Desert::new(scene, bed.heights.size(), tile.scale, &mesh);
+        let lamp = Lamp::of(scene)?;
+        let uniform = Desert::new(scene, bed.heights.size(), tile.scale, &mesh, lamp.is_moon);
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        self.update_maps(gpu, scene)?;
+        self.update_maps(gpu, lamp)?;
         self.update_mesh(gpu, encoder, timer, (scene, &mesh, &uniform), surroundings.frame)?;
         self.bind(gpu, surroundings).map(|groups| groups.map(|groups| DesertDrawData { groups, mesh }))
     }
 
-    /// Uploads what has changed of bed, ripples and sunlight.
-    fn update_maps(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), RenderError> {
+    /// Uploads what has changed of bed, ripples and light.
+    fn update_maps(&mut self, gpu: &Gpu, lamp: Lamp) -> Result<(), RenderError> {
         let (Some(bed), Some(tile)) = (self.source.bed(), self.source.tile()) else { return Ok(()) };
         let [of_bed, of_tile] = self.source.revisions();
         if self.bed.as_ref().is_none_or(|(revision, _)| *revision != of_bed) {
@@ -177,13 +181,13 @@ impl DesertRenderer {
         if self.tile.as_ref().is_none_or(|(revision, _)| *revision != of_tile) {
             self.tile = Some((of_tile, tile_textures(gpu, tile)?));
         }
-        let sun = scene.sun_direction()?;
-        let key = (of_bed, [sun.azimuth_rad, sun.elevation_rad]);
+        let [east, north, up] = lamp.direction;
+        let toward = [north.atan2(east), up.atan2(east.hypot(north))];
+        let key = (of_bed, toward);
         if self.light.as_ref().is_none_or(|(held, _)| *held != key) {
-            let from_east_rad = std::f64::consts::FRAC_PI_2 - sun.azimuth_rad;
-            let map = light::light_map(bed, from_east_rad, sun.elevation_rad)?;
+            let map = light::light_map(bed, toward[0], toward[1])?;
             let fineness = sun_horizon::fineness(bed.heights.size());
-            let map = sun_horizon::with_fine_horizons(bed, &map, from_east_rad, fineness)?;
+            let map = sun_horizon::with_fine_horizons(bed, &map, toward[0], fineness)?;
             self.light = Some((key, light_texture(gpu, bed, fineness, &map)?));
         }
         Ok(())
@@ -201,6 +205,12 @@ impl DesertRenderer {
         let tables = surroundings.tables;
         let mut sky =
             vec![("atmosphere", tables.atmosphere.as_entire_binding()), ("sky_view", tables.view.as_entire_binding())];
+        sky.extend([
+            ("column_table", tables.columns.as_binding()),
+            ("irradiance_table", tables.irradiance.as_binding()),
+        ]);
+        // The air, not the sand, shows the sky that the moon lights.
+        sky.extend(tables.moon_bindings().into_iter().filter(|(name, _)| *name == "moon"));
         sky.extend(surroundings.light.bindings());
         sky.extend(surroundings.air.bindings());
         let own = [
