@@ -50,13 +50,15 @@ impl DuneMaps {
             size,
         })?;
         let lee = lee(field);
-        let surface: Vec<_> = bed.cells().map(|[x, y]| gradient(&bed, [x, y], field.edges())).collect();
+        let surface = gradients(&bed, field.edges());
         let wind = field.winds().direction(field.steps_done());
         let wind = [wind.x, wind.y].map(|part| f64::from(part) / f64::from(crate::direction::DIRECTION_ONE));
         let bare = field.heights().iter().zip(field.bedrock()).map(|(height, rock)| height - rock < field.rule().slab);
+        let rule = RippleRule::new();
         let ripple = |((&slope, &lee), bare): ((&[f64; 2], &u8), bool)| {
-            if lee != 0 || bare { [0.0, 0.0] } else { ripple(slope, wind) }
+            if lee != 0 || bare { [0.0, 0.0] } else { rule.ripple(slope, wind) }
         };
+        let slip = tan_deg(28.0);
         Ok(Self {
             size,
             cell_m,
@@ -67,7 +69,7 @@ impl DuneMaps {
             slip_face: surface
                 .iter()
                 .zip(&lee)
-                .map(|(&[x, y], &lee)| u8::from(lee != 0 && x.hypot(y) > tan_deg(28.0)))
+                .map(|(&[x, y], &lee)| u8::from(lee != 0 && x * x + y * y > slip * slip))
                 .collect(),
             lee,
         })
@@ -82,11 +84,16 @@ impl DuneMaps {
     }
 }
 
-/// Slope along x and y; one-sided at open edges.
-fn gradient(bed: &HeightGrid, [x, y]: [isize; 2], edges: Edges) -> [f64; 2] {
-    if edges == Edges::Periodic {
-        return bed.gradient(x, y);
+/// Slopes of all cells along x and y.
+fn gradients(bed: &HeightGrid, edges: Edges) -> Vec<[f64; 2]> {
+    match edges {
+        Edges::Periodic => (0..bed.size()[1]).flat_map(|y| bed.row_gradients(y)).collect(),
+        Edges::Open => bed.cells().map(|cell| one_sided_gradient(bed, cell)).collect(),
     }
+}
+
+/// Slope along x and y; one-sided at the edges.
+fn one_sided_gradient(bed: &HeightGrid, [x, y]: [isize; 2]) -> [f64; 2] {
     let [nx, ny] = bed.size().map(usize::cast_signed);
     let ([left, right], [down, up]) =
         ([x - 1, x + 1].map(|x| x.clamp(0, nx - 1)), [y - 1, y + 1].map(|y| y.clamp(0, ny - 1)));
@@ -108,15 +115,29 @@ fn lee(field: &DuneField) -> Vec<u8> {
     line.heights().iter().zip(field.heights()).map(|(line, height)| u8::from(line > height)).collect()
 }
 
-/// Direction and height of ripples: grains follow the pull of the wind and of gravity down the slope, which are equal where
-/// the slope is at repose.
-fn ripple(slope: [f64; 2], wind: [f64; 2]) -> [f32; 2] {
-    let pull = [0, 1].map(|axis| wind[axis] * tan_deg(33.0) - slope[axis]);
-    let length = pull[0].hypot(pull[1]);
-    let steep = slope[0].hypot(slope[1]);
-    let share = ((tan_deg(FADE_TO_DEG) - steep) / (tan_deg(FADE_TO_DEG) - tan_deg(FADE_FROM_DEG))).clamp(0.0, 1.0);
-    let height = share * share * (3.0 - 2.0 * share);
-    if length > 1e-9 { pull.map(|part| (part / length * height) as f32) } else { [0.0, 0.0] }
+/// Tangents of the slopes that decide about ripples.
+struct RippleRule {
+    repose: f64,
+    /// From where ripples fade, and where there are none.
+    fade: [f64; 2],
+}
+
+impl RippleRule {
+    fn new() -> Self {
+        Self { repose: tan_deg(33.0), fade: [FADE_FROM_DEG, FADE_TO_DEG].map(tan_deg) }
+    }
+
+    /// Direction and height of ripples: grains follow the pull of the wind and of gravity down the slope, which are equal
+    /// where the slope is at repose.
+    fn ripple(&self, slope: [f64; 2], wind: [f64; 2]) -> [f32; 2] {
+        let square = |[x, y]: [f64; 2]| x * x + y * y;
+        let length = |vector| square(vector).sqrt();
+        let pull = [0, 1].map(|axis| wind[axis] * self.repose - slope[axis]);
+        let [from, to] = self.fade;
+        let share = ((to - length(slope)) / (to - from)).clamp(0.0, 1.0);
+        let height = share * share * (3.0 - 2.0 * share);
+        if length(pull) > 1e-9 { pull.map(|part| (part / length(pull) * height) as f32) } else { [0.0, 0.0] }
+    }
 }
 
 /// A part of a map with its borders.

@@ -8,6 +8,7 @@
 //! - [`presets`]: deserts to start from.
 //! - [`shadow`], [`horizon`]: where the wind and where the sun does not reach.
 //! - [`smooth`]: the surface of even slopes and creases that slabs stand for.
+//! - [`blur`], [`openness`], [`sunlight`]: a bed as light sees it.
 //! - [`brush`], [`terrain`], [`export`]: sand by hand, bedrock from outside, maps and tiles for other programs.
 //!
 //! Every decision is made in 32-bit integers on random words that are pure functions of (seed, step, cell), so a seed
@@ -22,6 +23,7 @@
     reason = "integers are the matter of this crate: sides are below 2^13, beds below 2^26 cells, and parameters are checked against ranges that keep every product within 32 bits"
 )]
 
+pub mod blur;
 pub mod brush;
 pub mod crest_theory;
 mod deposits;
@@ -35,6 +37,7 @@ pub mod horizon;
 pub mod lattice;
 mod ledger;
 pub mod measure;
+pub mod openness;
 pub mod presets;
 pub mod ripples;
 pub mod shadow;
@@ -42,6 +45,7 @@ mod side;
 mod simulation;
 pub mod slab;
 pub mod smooth;
+pub mod sunlight;
 pub mod terrain;
 pub mod wind;
 pub mod wind_rose;

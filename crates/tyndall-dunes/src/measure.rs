@@ -59,6 +59,18 @@ impl HeightGrid {
         [0.5 * (self.at(x + 1, y) - self.at(x - 1, y)), 0.5 * (self.at(x, y + 1) - self.at(x, y - 1))]
     }
 
+    /// [`HeightGrid::gradient`] of all cells of a row.
+    pub(crate) fn row_gradients(&self, y: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let [nx, ny] = self.size;
+        let row = |y: usize| &self.heights[y * nx..(y + 1) * nx];
+        let (below, here, above) = (row((y + ny - 1) % ny), row(y), row((y + 1) % ny));
+        let half = |up: f32, down: f32| 0.5 * (f64::from(up) - f64::from(down));
+        (0..nx).map(move |x| {
+            let [left, right] = [if x == 0 { nx - 1 } else { x - 1 }, if x + 1 == nx { 0 } else { x + 1 }];
+            [half(here[right], here[left]), half(above[x], below[x])]
+        })
+    }
+
     /// Mean height (cells).
     #[must_use]
     pub fn mean_cells(&self) -> f64 {
