@@ -6,6 +6,7 @@ mod dunes;
 mod gpu_sand;
 mod lookups;
 mod naive_clouds;
+mod playing;
 mod splats;
 mod tables;
 
@@ -56,7 +57,7 @@ fn main() -> Result<()> {
     print_line(&format!("{threads} CPU threads; microseconds a call, and how many times faster than the first way"))?;
     print_line(&format!("{:<34} {:<28} {:>12} {:>12} {:>9}", "", "", "median", "p95", "ratio"))?;
 
-    let runs: [(&str, Run); 18] = [
+    let runs: [(&str, Run); 20] = [
         (lookups::COLUMNS, lookups::columns),
         (lookups::DIRECTION, lookups::direction),
         (lookups::IRRADIANCE, lookups::irradiance),
@@ -72,6 +73,8 @@ fn main() -> Result<()> {
         (dunes::RIPPLES, dunes::ripples),
         (dunes::DUNES, dunes::dunes),
         (dunes::GROWN_DUNES, dunes::grown_dunes),
+        (playing::BEDS, playing::beds),
+        (playing::PICTURES, playing::pictures),
         (gpu_sand::RIPPLES, gpu_sand::ripples),
         (gpu_sand::DUNES, gpu_sand::dunes),
         (gpu_sand::SMALL_DUNES, gpu_sand::small_dunes),

@@ -118,6 +118,11 @@ impl Engine {
         self.renderer.desert_progress()
     }
 
+    /// Chooses whether pictures of sand are soon followed by others, and may be a little less exact.
+    pub(crate) fn set_sand_under_way(&mut self, is_under_way: bool) {
+        self.renderer.set_sand_under_way(is_under_way);
+    }
+
     /// Whether something is being made that a later frame will show.
     pub(crate) fn is_building(&self) -> bool {
         self.tables().building || self.clouds().building || self.desert().building

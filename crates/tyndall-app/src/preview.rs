@@ -1,8 +1,5 @@
 //! How coarse the picture is while something moves, so that a frame stays within a sixtieth of a second or so.
 
-/// Longest frame while something moves.
-const MAX_MOVING_MS: f64 = 60.0;
-
 /// Pixels of the view along one side of a preview pixel that may be chosen, the finest first.
 const DIVISORS: [u32; 3] = [1, 2, 4];
 
@@ -36,10 +33,9 @@ impl Preview {
         self.measured[slot] = Some(Measured { ms: old + (ms - old) * NEWEST_WEIGHT, pixels });
     }
 
-    /// The finest divisor that is fast enough for a view of this size.
-    pub(crate) fn divisor(&self, view_px: [u32; 2]) -> u32 {
-        let fast =
-            |(slot, divisor): &(usize, u32)| self.expected_ms(*slot, reduced(view_px, *divisor)) <= MAX_MOVING_MS;
+    /// The finest divisor at which a view of this size takes no longer than `longest_ms`.
+    pub(crate) fn divisor(&self, view_px: [u32; 2], longest_ms: f64) -> u32 {
+        let fast = |(slot, divisor): &(usize, u32)| self.expected_ms(*slot, reduced(view_px, *divisor)) <= longest_ms;
         let chosen = DIVISORS.into_iter().enumerate().find(fast);
         chosen.map_or(DIVISORS[DIVISORS.len() - 1], |(_, divisor)| divisor)
     }
@@ -76,13 +72,13 @@ mod tests {
             let mut preview = Preview::default();
             preview.learn(1, VIEW_PX, 1e6);
             preview.learn(1, VIEW_PX, full_ms);
-            assert_eq!(preview.divisor(VIEW_PX), divisor, "a frame takes {full_ms} ms");
+            assert_eq!(preview.divisor(VIEW_PX, 60.0), divisor, "a frame takes {full_ms} ms");
         }
     }
 
     #[test]
     fn an_unmeasured_machine_starts_at_half_resolution() {
-        assert_eq!(Preview::default().divisor(VIEW_PX), 2, "nothing is known yet");
+        assert_eq!(Preview::default().divisor(VIEW_PX, 60.0), 2, "nothing is known yet");
     }
 
     #[test]
@@ -91,7 +87,7 @@ mod tests {
         preview.learn(1, VIEW_PX, 100.0);
         // A frame has parts that do not shrink with the picture.
         preview.learn(2, reduced(VIEW_PX, 2), 80.0);
-        assert_eq!(preview.divisor(VIEW_PX), 4, "half resolution was too slow");
+        assert_eq!(preview.divisor(VIEW_PX, 60.0), 4, "half resolution was too slow");
     }
 
     #[test]

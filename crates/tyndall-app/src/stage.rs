@@ -14,6 +14,10 @@ use crate::{
     preview::{Preview, reduced},
 };
 
+/// Longest frames (ms) while something moves, and while it is sand, which the processor moves beside the frames.
+const MOVING_MS: f64 = 60.0;
+const MOVING_SAND_MS: f64 = 30.0;
+
 /// Rest after which a preview is replaced by the full picture.
 const REST_S: f64 = 0.15;
 
@@ -56,6 +60,8 @@ pub(crate) struct Stage {
     frames: u64,
     /// Since when clouds have been simulated without a pause.
     simulating_since_s: Option<f64>,
+    /// Whether the wind blows over sand, or a hand is on it.
+    is_sand_under_way: bool,
 }
 
 impl Stage {
@@ -80,7 +86,13 @@ impl Stage {
             ev100: None,
             frames: 0,
             simulating_since_s: None,
+            is_sand_under_way: false,
         }
+    }
+
+    /// Chooses whether sand is under way, so that what is drawn of it is soon drawn anew.
+    pub(crate) fn set_sand_under_way(&mut self, is_under_way: bool) {
+        self.is_sand_under_way = is_under_way;
     }
 
     /// The renderer, unless it could not be made.
@@ -212,16 +224,18 @@ impl Stage {
         let moving = moving || is_playing;
         let wanted = Wanted { scene: picture_of(scene), view_px };
         if self.tried.as_ref() != Some(&wanted) {
-            let divisor = if moving { self.preview.divisor(view_px) } else { 1 };
+            let divisor = if moving { self.preview.divisor(view_px, self.frame_ms()) } else { 1 };
             let quick = self.detail.quick(scene);
             let quick = if divisor > 1 { detail::reduced(quick) } else { quick };
-            let is_preview = divisor > 1 || quick != *scene;
+            let is_preview = divisor > 1 || quick != *scene || self.is_sand_under_way;
             self.refine_at_s = is_preview.then_some(now_s + REST_S);
             self.tried = Some(wanted);
+            self.tell_sand(self.is_sand_under_way);
             self.draw(&quick, view_px, divisor);
         } else if self.refine_at_s.is_some_and(|at_s| now_s >= at_s) {
             self.refine_at_s = None;
             self.detail.drawn_fine(scene);
+            self.tell_sand(false);
             self.draw(scene, view_px, 1);
         } else if self.engine().is_some_and(Engine::has_news)
             && let Some((drawn, divisor)) = self.drawn.clone()
@@ -235,6 +249,18 @@ impl Stage {
             ctx.request_repaint_after(Duration::from_secs_f64((at_s - now_s).max(0.0)));
         }
         self.await_timings(ctx);
+    }
+
+    /// Longest frame (ms) that a preview may take.
+    fn frame_ms(&self) -> f64 {
+        // A software adapter leaves the sand less of the processor.
+        if self.is_sand_under_way { MOVING_SAND_MS } else { MOVING_MS }
+    }
+
+    fn tell_sand(&mut self, is_under_way: bool) {
+        if let Ok(engine) = &mut self.engine {
+            engine.set_sand_under_way(is_under_way);
+        }
     }
 
     /// Whether the picture of this scene has been drawn or tried.

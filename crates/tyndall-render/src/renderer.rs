@@ -278,6 +278,17 @@ impl Renderer {
         self.clouds.start_from(state);
     }
 
+    /// Chooses a state from which the desert's simulation starts in place of step 0, where the scene's step is not before it.
+    pub fn start_desert_from(&mut self, state: Option<NamedArrays>) {
+        self.desert.start_from(state);
+    }
+
+    /// Chooses whether the desert's sand is under way, so that each picture of it is soon followed by another. The sky's openness
+    /// of such a picture is that of coarser cells, and figures of the field are up to half a second old; sand is exact.
+    pub fn set_sand_under_way(&mut self, is_under_way: bool) {
+        self.desert.set_quick(is_under_way);
+    }
+
     /// The volume of air in front of the camera, for tests and compositors.
     #[must_use]
     pub fn air(&self) -> &AerialVolume {

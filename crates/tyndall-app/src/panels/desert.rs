@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use egui::{Button, RichText, ScrollArea, Slider, Ui};
 use tyndall_core::ParamSet as _;
-use tyndall_dunes::by_hand::HandTool;
+use tyndall_dunes::by_hand::{HandTool, parse_strokes};
 use tyndall_dunes::presets::{DunePreset, dune_presets, ripple_preset};
 use tyndall_render::desert::DesertProgress;
 use tyndall_scene::{DesertKind, LandscapeKind, RippleParams, Scene};
@@ -142,6 +142,9 @@ fn brushes(ui: &mut Ui, scene: &mut Scene, tools: &mut DesertTools) {
             }
         }
     });
+    if let Err(error) = parse_strokes(&scene.desert.strokes) {
+        ui.colored_label(ui.visuals().error_fg_color, format!("{error}. Brushes wait until the strokes are cleared."));
+    }
     let Some(tool) = tools.tool else { return };
     for (caption, name, value, range) in [
         ("Radius", "Desert: radius of the brush", &mut tools.radius_m, RADII_M),

@@ -5,16 +5,20 @@
 
 use tyndall_dunes::DesertSimulation;
 use tyndall_dunes::Edges;
+use tyndall_dunes::blur::{blur, quick_smooth_bed};
 use tyndall_dunes::export::DuneMaps;
-use tyndall_dunes::horizon::HorizonMap;
 use tyndall_dunes::measure::HeightGrid;
+use tyndall_dunes::openness::{coarse_openness, openness};
 use tyndall_dunes::smooth::smooth_bed;
 
-use super::smooth::blur;
 use crate::RenderError;
 
 /// Azimuths of the horizons that the sky's light is asked for.
 const SKY_AZIMUTHS: usize = 16;
+
+/// How much wider than the field's the cells are that a quick picture's openness is of, and its azimuths.
+const QUICK_CELLS: usize = 4;
+const QUICK_AZIMUTHS: usize = 8;
 
 /// What is drawn of a field.
 #[derive(Clone, Debug)]
@@ -36,16 +40,32 @@ impl Bed {
     ///
     /// # Errors
     /// When the field's numbers are out of range.
-    #[expect(clippy::cast_possible_truncation, reason = "textures hold less than f32")]
     pub fn new(simulation: &DesertSimulation) -> Result<Self, RenderError> {
+        Self::made(simulation, false)
+    }
+
+    /// The same but for the sky's openness, which is that of a coarser bed: for pictures that are soon followed by others.
+    ///
+    /// # Errors
+    /// As for [`Bed::new`].
+    pub fn quick(simulation: &DesertSimulation) -> Result<Self, RenderError> {
+        Self::made(simulation, true)
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "textures hold less than f32")]
+    fn made(simulation: &DesertSimulation, is_quick: bool) -> Result<Self, RenderError> {
         let maps = simulation.maps()?;
         let (size, edges, cell_m) = (maps.size, simulation.field().edges(), maps.cell_m);
         let cells: Vec<f32> = maps.height_m.iter().map(|height| (f64::from(*height) / cell_m) as f32).collect();
         let step = simulation.params().dunes.slab_cells as f32;
         let heights = HeightGrid::new(size, cells).expect("a field has as many heights as cells");
-        let heights = over_rock(&smooth_bed(&heights, step, edges), &maps);
-        let horizons = HorizonMap::new(&heights, SKY_AZIMUTHS, edges)?;
-        let openness = (0..size[0] * size[1]).map(|cell| openness(&heights, &horizons, cell)).collect::<Vec<_>>();
+        let smooth = if is_quick { quick_smooth_bed } else { smooth_bed };
+        let heights = over_rock(&smooth(&heights, step, edges), &maps);
+        let openness = if is_quick {
+            coarse_openness(&heights, QUICK_AZIMUTHS, edges, QUICK_CELLS)?
+        } else {
+            openness(&heights, SKY_AZIMUTHS, edges)?
+        };
         Ok(Self {
             openness: blur(&openness, size, edges, 1),
             ripples: ripples(&maps, &heights, edges),
@@ -149,16 +169,6 @@ fn over_rock(heights: &HeightGrid, maps: &DuneMaps) -> HeightGrid {
     let rock = maps.height_m.iter().zip(&maps.sand_m).map(|(height, sand)| (height - sand) / maps.cell_m as f32);
     let over = heights.heights().iter().zip(rock).map(|(height, rock)| height.max(rock)).collect();
     HeightGrid::new(heights.size(), over).expect("as many heights as before")
-}
-
-/// Share of the sky over a cell of what an endless slope like the cell's would leave of it.
-#[expect(clippy::cast_possible_truncation, reason = "textures hold less than f32")]
-fn openness(heights: &HeightGrid, horizons: &HorizonMap, cell: usize) -> f32 {
-    let [nx, _] = heights.size();
-    let [x, y] = [cell % nx, cell / nx].map(usize::cast_signed);
-    let [gx, gy] = heights.gradient(x, y);
-    let alone = 0.5 + 0.5 / (1.0 + gx * gx + gy * gy).sqrt();
-    (horizons.sky_openness(cell) / alone).clamp(0.0, 1.0) as f32
 }
 
 /// Ripples of a field: absent in the lee, where their heights fade over a few cells, and longer where the wind is stronger.

@@ -9,6 +9,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
 
 use super::maker::{BedMaker, BedRequest, MadeBed};
@@ -60,6 +61,15 @@ impl Making {
         }
     }
 
+    /// Chooses a state that fields start from.
+    pub(super) fn start_from(&mut self, state: Option<NamedArrays>) {
+        match self {
+            Self::Blocking(maker) => maker.start_from(state),
+            // Without a thread there is no sand anyway.
+            Self::Background(worker) => drop(worker.orders.send(Order::Start(state))),
+        }
+    }
+
     /// What has been made since the last call; `wanted` is what the frame lacks.
     pub(super) fn next(&mut self, wanted: Option<&BedRequest>) -> Option<Made> {
         match self {
@@ -91,6 +101,8 @@ impl Making {
 enum Order {
     /// To keep fields in a store.
     Keep(Option<Arc<dyn TableStore>>),
+    /// To start fields from a state.
+    Start(Option<NamedArrays>),
     /// To make a bed; the number of the request is its place among all.
     Make(u64, Box<BedRequest>),
 }
@@ -156,12 +168,13 @@ impl Worker {
     }
 }
 
-/// The newest of the beds asked for so far; stores are passed on.
+/// The newest of the beds asked for so far; stores and states to start from are passed on.
 fn newest_of(maker: &mut BedMaker, first: Order, received: &Receiver<Order>) -> Option<(u64, BedRequest)> {
     let mut newest = None;
     for order in std::iter::once(first).chain(received.try_iter()) {
         match order {
             Order::Keep(store) => maker.set_store(store),
+            Order::Start(state) => maker.start_from(state),
             Order::Make(number, request) => newest = Some((number, *request)),
         }
     }
@@ -194,7 +207,7 @@ fn make_with_looks(
             return true;
         }
         let looking = Instant::now();
-        if let Some(look) = maker.look(request) {
+        if let Some(look) = maker.look(request, true) {
             if !send(look) {
                 return false;
             }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
 use tyndall_dunes::{DesertInputs, DesertParams, DesertSimulation, DesertSource};
 use tyndall_scene::{DesertSceneParams, RippleParams, Scene};
@@ -22,13 +23,16 @@ pub(super) struct BedRequest {
     desert: DesertSceneParams,
     folder: PathBuf,
     ripples: RippleParams,
+    /// Whether another bed soon follows, so that this one may be a little less exact.
+    is_quick: bool,
 }
 
 impl BedRequest {
-    /// Of a scene; `None` without a desert.
-    pub(super) fn of(scene: &Scene) -> Option<Self> {
+    /// Of a scene; `None` without a desert. Of quick ones only the sand is exact; see [`Bed::quick`].
+    pub(super) fn of(scene: &Scene, is_quick: bool) -> Option<Self> {
         let (desert, ripples) = (scene.desert.clone(), scene.ripples.clone());
-        scene.dune_params().map(|params| Self { params, desert, folder: scene.folder.to_path_buf(), ripples })
+        let folder = scene.folder.to_path_buf();
+        scene.dune_params().map(|params| Self { params, desert, folder, ripples, is_quick })
     }
 
     /// Steps of the field.
@@ -54,7 +58,7 @@ impl BedRequest {
     /// The request less what files do not depend on.
     fn of_files(&self) -> Self {
         let desert = DesertSceneParams { steps: 0, ripple_steps: 0, ..self.desert.clone() };
-        Self { desert, ripples: RippleParams::default(), ..self.clone() }
+        Self { desert, ripples: RippleParams::default(), is_quick: false, ..self.clone() }
     }
 }
 
@@ -69,22 +73,35 @@ pub(super) struct MadeBed {
 /// Time from which on a field is worth keeping.
 const LONG: Duration = Duration::from_secs(1);
 
+/// Least time between two looks at slopes, crests and heaps while beds follow each other quickly.
+const FIGURES_EVERY: Duration = Duration::from_millis(400);
+
 /// Makes what requests ask for.
 #[derive(Debug, Default)]
 pub(super) struct BedMaker {
     store: Option<Arc<dyn TableStore>>,
     fields: DesertSource,
+    /// Whether fields begin with a state, and are therefore not kept.
+    has_start: bool,
     /// Time that the field has taken since its first step; `None` when it was kept.
     made_in: Option<Duration>,
     inputs: Option<(BedRequest, DesertInputs)>,
     tile: Option<(RippleParams, u32, Arc<RippleTile>)>,
     step_time: Option<Duration>,
+    /// Figures that took a while, and when they were found.
+    figures: Option<(Instant, Arc<DesertReport>)>,
 }
 
 impl BedMaker {
     /// Chooses where fields are kept between runs.
     pub(super) fn set_store(&mut self, store: Option<Arc<dyn TableStore>>) {
         self.store = store;
+    }
+
+    /// Chooses a state to start from in place of step 0, for all steps that are not before it.
+    pub(super) fn start_from(&mut self, state: Option<NamedArrays>) {
+        self.has_start = state.is_some();
+        self.fields.start_from(state);
     }
 
     /// What a request asks for; `None` when `is_stale`, which is asked between steps with their number, says that nobody
@@ -111,29 +128,37 @@ impl BedMaker {
         if is_done {
             self.keep(request, &inputs);
         }
-        if is_done { self.look(request).transpose() } else { Ok(None) }
+        if is_done { self.look(request, request.is_quick).transpose() } else { Ok(None) }
     }
 
     /// The field as far as it has come; `None` before there is one.
-    pub(super) fn look(&mut self, request: &BedRequest) -> Option<Result<MadeBed, RenderError>> {
+    pub(super) fn look(&mut self, request: &BedRequest, is_quick: bool) -> Option<Result<MadeBed, RenderError>> {
         let started = Instant::now();
         let tile = match self.tile(request) {
             Ok(tile) => tile,
             Err(error) => return Some(Err(error)),
         };
         let simulation = self.fields.simulation()?;
-        Some(Bed::new(simulation).map(|bed| {
-            let times = DesertTimes { step: self.step_time, picture: Duration::ZERO };
-            let mut report = DesertReport::new(simulation, times);
-            report.times.picture = started.elapsed();
-            MadeBed { bed: Arc::new(bed), tile, report: Arc::new(report) }
-        }))
+        let bed = match if is_quick { Bed::quick(simulation) } else { Bed::new(simulation) } {
+            Ok(bed) => bed,
+            Err(error) => return Some(Err(error)),
+        };
+        let times = DesertTimes { step: self.step_time, picture: Duration::ZERO };
+        let known = self.figures.take().filter(|(found, _)| is_quick && found.elapsed() < FIGURES_EVERY);
+        let mut report = match &known {
+            Some((_, known)) => DesertReport::with_figures_of(known, simulation, times),
+            None => DesertReport::new(simulation, times),
+        };
+        report.times.picture = started.elapsed();
+        let report = Arc::new(report);
+        self.figures = Some(known.unwrap_or_else(|| (Instant::now(), Arc::clone(&report))));
+        Some(Ok(MadeBed { bed: Arc::new(bed), tile, report }))
     }
 
     /// Starts from the field of an earlier run, if there is one.
     fn take_kept(&mut self, request: &BedRequest, inputs: &DesertInputs) -> Result<(), RenderError> {
         let (params, steps) = (&request.params, request.steps());
-        let kept = self.store.as_deref().zip(kept::key(params, inputs, steps));
+        let kept = self.shelf().zip(kept::key(params, inputs, steps));
         let Some((store, key)) = kept else { return Ok(()) };
         if let Some(simulation) = kept::load(store, &key, (params, inputs, steps))? {
             self.fields.take_up(simulation);
@@ -142,9 +167,14 @@ impl BedMaker {
         Ok(())
     }
 
+    /// Where fields are kept that follow from the scene alone.
+    fn shelf(&self) -> Option<&dyn TableStore> {
+        self.store.as_deref().filter(|_| !self.has_start)
+    }
+
     /// Keeps a field that took long, once.
     fn keep(&mut self, request: &BedRequest, inputs: &DesertInputs) {
-        let kept = self.store.as_deref().zip(kept::key(&request.params, inputs, request.steps()));
+        let kept = self.shelf().zip(kept::key(&request.params, inputs, request.steps()));
         if let (Some(made_in), Some((store, key)), Some(simulation)) = (self.made_in, kept, self.fields.simulation())
             && made_in >= LONG
         {

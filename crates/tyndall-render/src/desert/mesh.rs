@@ -12,6 +12,11 @@ use crate::landscape::mesh::{Azimuths, azimuths};
 /// Rings, the centre included.
 const RINGS: u32 = 1536;
 
+/// Rows of a quick picture for each ring, its least rings, and columns that become one.
+const QUICK_RING_PX: u32 = 2;
+const LEAST_RINGS: u32 = 96;
+const QUICK_COLUMNS: u32 = 2;
+
 /// The mesh of a view. Lengths in metres, angles from east to north.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DesertMesh {
@@ -48,9 +53,37 @@ impl DesertMesh {
         }
     }
 
+    /// The same view with few quadrilaterals, each several pixels of the picture wide: for pictures that are soon followed by
+    /// others. Software adapters shade whole blocks of pixels for each triangle, however small it is.
+    #[must_use]
+    pub fn quick(self, size_px: [u32; 2]) -> Self {
+        let rings = (size_px[1] / QUICK_RING_PX).clamp(LEAST_RINGS, self.rings);
+        let columns = (self.columns / QUICK_COLUMNS).max(2);
+        let wider = f64::from(self.columns - 1) / f64::from(columns - 1);
+        Self { rings, columns, azimuth_step_rad: self.azimuth_step_rad * wider, ..self }
+    }
+
     /// Number of vertices.
     #[must_use]
     pub fn vertices(&self) -> u32 {
         self.columns * self.rings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quick_mesh_covers_the_same_view_with_fewer_quadrilaterals() {
+        let (scene, size_px) = (Scene::default(), [320, 180]);
+        let fine = DesertMesh::new(&scene, View::Camera, size_px, 10.0, 30.0);
+        let quick = fine.quick(size_px);
+        let last = |mesh: &DesertMesh| mesh.first_azimuth_rad + mesh.azimuth_step_rad * f64::from(mesh.columns - 1);
+        assert!((last(&quick) - last(&fine)).abs() < 1e-9, "{quick:?}, {fine:?}");
+        assert!(quick.vertices() < fine.vertices() / 20, "{} of {} vertices", quick.vertices(), fine.vertices());
+        let same =
+            DesertMesh { rings: fine.rings, columns: fine.columns, azimuth_step_rad: fine.azimuth_step_rad, ..quick };
+        assert_eq!(same, fine, "as far as before");
     }
 }

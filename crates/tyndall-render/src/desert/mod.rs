@@ -19,13 +19,13 @@ pub mod mesh;
 pub mod reflection;
 pub mod report;
 pub mod ripple_tile;
-pub mod smooth;
 mod source;
 pub mod sun_horizon;
 mod textures;
 
 use std::sync::Arc;
 
+use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
 use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture};
@@ -46,6 +46,10 @@ use textures::{BedTextures, light_texture, sampler, tile_textures};
 /// Bytes of a vertex.
 const VERTEX_BYTES: u64 = 16;
 
+/// What a map of light is of: the bed's revision, the direction to sun or moon (azimuth from east, elevation), and whether it
+/// was made quickly.
+type LightKey = (u64, [f64; 2], bool);
+
 /// Pipelines, maps and meshes of the desert.
 #[derive(Debug)]
 pub struct DesertRenderer {
@@ -58,8 +62,8 @@ pub struct DesertRenderer {
     /// Textures of the tile of ripples, and its revision.
     tile: Option<(u64, [Texture; 2])>,
     tile_sampler: wgpu::Sampler,
-    /// Light of the sun or the moon, with the bed's revision and the direction to it (azimuth from east, elevation).
-    light: Option<((u64, [f64; 2]), Texture)>,
+    /// Light of the sun or the moon.
+    light: Option<(LightKey, Texture)>,
     vertices: Option<Buffer>,
     /// What the vertices were computed for, and from where.
     holds: Option<(u64, Desert, [f32; 3])>,
@@ -121,6 +125,16 @@ impl DesertRenderer {
         self.source.set_store(store);
     }
 
+    /// Chooses a state to start from in place of step 0, for all steps that are not before it.
+    pub fn start_from(&mut self, state: Option<NamedArrays>) {
+        self.source.start_from(state);
+    }
+
+    /// Chooses whether pictures of the desert are soon followed by others; see [`Bed::quick`].
+    pub fn set_quick(&mut self, is_quick: bool) {
+        self.source.set_quick(is_quick);
+    }
+
     /// Chooses when the desert is simulated; at first the frame waits for it.
     pub fn set_building(&mut self, building: TableBuilding) {
         self.source.set_building(building);
@@ -145,7 +159,7 @@ impl DesertRenderer {
     #[must_use]
     pub fn reach(&self, scene: &Scene, view: View, size_px: [u32; 2]) -> Option<SkyLightReach> {
         let bed = self.source.bed()?;
-        let mesh = mesh(scene, view, size_px, bed);
+        let mesh = self.mesh(scene, view, size_px, bed);
         Some(SkyLightReach { distance_m: mesh.far_radius_m, top_altitude_m: bed.highest_m() })
     }
 
@@ -162,7 +176,7 @@ impl DesertRenderer {
         surroundings: LandscapeSurroundings<'_>,
     ) -> Result<Option<DesertDrawData>, RenderError> {
         let (Some(bed), Some(tile)) = (self.source.bed(), self.source.tile()) else { return Ok(None) };
-        let mesh = mesh(scene, view, size_px, bed);
+        let mesh = self.mesh(scene, view, size_px, bed);
         let lamp = Lamp::of(scene)?;
         let uniform = Desert::new(scene, bed.heights.size(), tile.scale, &mesh, lamp.is_moon);
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
@@ -183,11 +197,16 @@ impl DesertRenderer {
         }
         let [east, north, up] = lamp.direction;
         let toward = [north.atan2(east), up.atan2(east.hypot(north))];
-        let key = (of_bed, toward);
+        let key = (of_bed, toward, self.source.is_quick());
         if self.light.as_ref().is_none_or(|(held, _)| *held != key) {
             let map = light::light_map(bed, toward[0], toward[1])?;
-            let fineness = sun_horizon::fineness(bed.heights.size());
-            let map = sun_horizon::with_fine_horizons(bed, &map, toward[0], fineness)?;
+            // Horizons of the field's own cells do for a moment.
+            let (fineness, map) = if self.source.is_quick() {
+                (1, map)
+            } else {
+                let fineness = sun_horizon::fineness(bed.heights.size());
+                (fineness, sun_horizon::with_fine_horizons(bed, &map, toward[0], fineness)?)
+            };
             self.light = Some((key, light_texture(gpu, bed, fineness, &map)?));
         }
         Ok(())
@@ -275,6 +294,13 @@ impl DesertRenderer {
         Ok(())
     }
 
+    fn mesh(&self, scene: &Scene, view: View, size_px: [u32; 2], bed: &Bed) -> DesertMesh {
+        let camera = &scene.camera;
+        let clearance_m = camera.altitude_m - bed.at(camera.x_m, camera.y_m)[0];
+        let mesh = DesertMesh::new(scene, view, size_px, clearance_m, bed.highest_m());
+        if self.source.is_quick() { mesh.quick(size_px) } else { mesh }
+    }
+
     /// Draws the desert; first of all, for it hides most of what is behind it.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, data: &DesertDrawData) {
         pass.set_pipeline(self.dunes.raw());
@@ -283,10 +309,4 @@ impl DesertRenderer {
         }
         pass.draw(0..2 * data.mesh.columns, 0..data.mesh.rings - 1);
     }
-}
-
-fn mesh(scene: &Scene, view: View, size_px: [u32; 2], bed: &Bed) -> DesertMesh {
-    let camera = &scene.camera;
-    let clearance_m = camera.altitude_m - bed.at(camera.x_m, camera.y_m)[0];
-    DesertMesh::new(scene, view, size_px, clearance_m, bed.highest_m())
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use tyndall_dunes::measure::{Crests, HeightGrid, WindSlopes, bodies, crests, wind_slopes};
+use tyndall_dunes::measure::{Bodies, Crests, HeightGrid, WindSlopes, bodies, crests, wind_slopes};
 use tyndall_dunes::slab::DUNE_QUANTA_PER_CELL;
 use tyndall_dunes::wind::Wind;
 use tyndall_dunes::{DesertSimulation, Ledger, SandSimulation as _};
@@ -54,28 +54,44 @@ impl DesertReport {
     /// Of a field.
     pub(super) fn new(simulation: &DesertSimulation, times: DesertTimes) -> Self {
         let (field, size) = (simulation.field(), simulation.size());
-        let winds = field.winds().winds().to_vec();
+        let winds = field.winds().winds();
         let grid = |quanta: &[i32]| {
             HeightGrid::from_quanta(size, quanta, DUNE_QUANTA_PER_CELL).expect("a field has as many heights as cells")
         };
         let depth: Vec<i32> = field.heights().iter().zip(field.bedrock()).map(|(height, rock)| height - rock).collect();
         let (bed, sand) = (grid(field.heights()), grid(&depth));
-        let sum = drift(&winds);
+        let sum = drift(winds);
         // Winds that cancel leave the one that blows.
         let along_deg = if sum.variability > 0.05 { sum.toward_deg } else { simulation.wind_toward_deg() };
         let heaps = bodies(&sand, sand.mean_cells() + sand.rms_cells(), LEAST_HEAP);
+        let (slopes, crests) = (wind_slopes(&bed, along_deg), crests(&bed));
+        Self::with_figures((slopes, crests, heaps), simulation, times)
+    }
+
+    /// Of a field whose slopes, crests and heaps are still about those of an earlier report.
+    pub(super) fn with_figures_of(known: &Self, simulation: &DesertSimulation, times: DesertTimes) -> Self {
+        let heaps = Bodies { count: known.heaps, bare_share: known.bare_share };
+        Self::with_figures((known.slopes, known.crests, heaps), simulation, times)
+    }
+
+    fn with_figures(
+        (slopes, crests, heaps): (WindSlopes, Crests, Bodies),
+        simulation: &DesertSimulation,
+        times: DesertTimes,
+    ) -> Self {
+        let field = simulation.field();
         Self {
             step: simulation.step_count(),
-            size,
+            size: simulation.size(),
             cell_m: simulation.cell_m(),
             sand_quanta: field.mass_quanta(),
             ledger: field.ledger(),
             height_range_m: simulation.height_range_m(),
-            slopes: wind_slopes(&bed, along_deg),
-            crests: crests(&bed),
+            slopes,
+            crests,
             heaps: heaps.count,
             bare_share: heaps.bare_share,
-            winds,
+            winds: field.winds().winds().to_vec(),
             wind_toward_deg: simulation.wind_toward_deg(),
             times,
         }

@@ -5,13 +5,13 @@
 //! [`TILE_INDEX`](super::gpu_data). A texel of a mip level is the mean of four of the finer one, so that M - B B^T of a
 //! level is the covariance of the slopes within its texels (Olano and Baker 2010).
 
+use tyndall_dunes::blur::blur;
 use tyndall_dunes::measure::{HeightGrid, mean_wavelength_cells};
 use tyndall_dunes::ripples::RippleBed;
 use tyndall_dunes::{DuneError, Edges, SandSimulation as _};
 use tyndall_scene::RippleParams;
 
 use super::gpu_data::{TILE_INDEX, TileScale};
-use super::smooth::blur;
 
 /// Slopes of a texel: Bx, By, Mxx, Myy, Mxy.
 pub type Moments = [f32; 5];

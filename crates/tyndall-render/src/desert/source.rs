@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
 use tyndall_scene::Scene;
 
@@ -28,7 +29,11 @@ pub struct DesertProgress {
 #[derive(Debug, Default)]
 pub(super) struct BedSource {
     making: Making,
+    building: TableBuilding,
+    /// Whether beds follow each other quickly.
+    is_quick: bool,
     store: Option<Arc<dyn TableStore>>,
+    start: Option<NamedArrays>,
     shown: Option<(BedRequest, MadeBed)>,
     /// What could not be made, and why.
     refused: Option<(BedRequest, Arc<RenderError>)>,
@@ -39,8 +44,22 @@ pub(super) struct BedSource {
 impl BedSource {
     /// Chooses who makes beds; what is shown stays.
     pub(super) fn set_building(&mut self, building: TableBuilding) {
-        self.making = Making::new(building);
+        self.building = building;
+        self.begin();
+    }
+
+    /// Others who make beds; those before are not heard any longer.
+    fn begin(&mut self) {
+        self.making = Making::new(self.building.clone());
         self.making.set_store(self.store.clone());
+        self.making.start_from(self.start.clone());
+    }
+
+    /// Chooses a state that fields start from in place of step 0; what was made from another is forgotten.
+    pub(super) fn start_from(&mut self, state: Option<NamedArrays>) {
+        self.start = state;
+        self.begin();
+        (self.shown, self.refused) = (None, None);
     }
 
     /// Chooses where fields are kept between runs.
@@ -49,9 +68,19 @@ impl BedSource {
         self.making.set_store(store);
     }
 
+    /// Chooses whether beds are soon followed by others and may be a little less exact.
+    pub(super) fn set_quick(&mut self, is_quick: bool) {
+        self.is_quick = is_quick;
+    }
+
+    /// Whether beds are soon followed by others.
+    pub(super) fn is_quick(&self) -> bool {
+        self.is_quick
+    }
+
     /// Takes what the scene needs: the bed before, where a thread is still at this one.
     pub(super) fn update(&mut self, scene: &Scene) -> Result<(), RenderError> {
-        let Some(request) = BedRequest::of(scene) else {
+        let Some(request) = BedRequest::of(scene, self.is_quick) else {
             self.making.cancel();
             (self.shown, self.progress) = (None, DesertProgress::default());
             return Ok(());

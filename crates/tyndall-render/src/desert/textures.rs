@@ -1,6 +1,7 @@
 //! The maps of a bed on the GPU.
 
 use half::f16;
+use half::slice::{HalfBitsSliceExt as _, HalfFloatSliceExt as _};
 use tyndall_dunes::Edges;
 use tyndall_gpu::wgpu::{self, TextureFormat, TextureUsages};
 use tyndall_gpu::{Buffer, Gpu, Texture, TextureDesc};
@@ -71,7 +72,9 @@ fn of_halves(gpu: &Gpu, label: &str, size: [usize; 2], map: &[[f32; 4]]) -> Resu
     let add = |a: [f32; 4], b: [f32; 4]| [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]];
     let floats = mip_levels(map.to_vec(), size, scale, add);
     let halves = |level: &Vec<[f32; 4]>| {
-        level.iter().map(|texel| texel.map(|part| f16::from_f32(part).to_bits())).collect::<Vec<_>>()
+        let mut halves = vec![[0_u16; 4]; level.len()];
+        halves.as_flattened_mut().reinterpret_cast_mut::<f16>().convert_from_f32_slice(level.as_flattened());
+        halves
     };
     levels(gpu, label, size, TextureFormat::Rgba16Float, &floats.iter().map(halves).collect::<Vec<_>>())
 }
