@@ -50,6 +50,58 @@ fn a_still_starts_from_a_state_as_the_volume_does() {
     assert!(pixels("from.png") == pixels("whole.png"), "the same picture");
 }
 
+/// A small desert, from above.
+const SAND: &str = "format = 1\n[camera]\naltitude_m = 40\npitch_deg = -60\n[sky]\norders = \"single\"\n[desert]\n\
+                    kind = \"dunes\"\nsteps = 40\n[dunes]\nside = \"64\"\n[image]\nwidth_px = 48\nheight_px = 32\n";
+
+/// Pixels of a picture file.
+fn pixels(place: &Place, name: &str) -> image::RgbImage {
+    image::open(place.path(name)).unwrap().to_rgb8()
+}
+
+#[test]
+fn sand_that_starts_from_a_state_is_drawn_as_if_it_had_never_stopped() {
+    let place = Place::new();
+    place.write("sand.toml", SAND);
+    let draw = |words: &[&str]| place.run(&[&["render", "sand.toml"], words].concat());
+    place.run(&["simulate", "sand.toml", "--steps", "25", "-o", "s.npz"]).succeeded();
+    draw(&["-o", "whole.png"]).succeeded();
+    draw(&["-o", "rest.png", "--state", "s.npz"]).succeeded();
+    assert!(pixels(&place, "whole.png") == pixels(&place, "rest.png"), "25 steps and 15 more are 40");
+
+    // Sand of another seed, so that the state shows; it is further than the scene.
+    let other = ["--set", "dunes.seed=9"];
+    place.run(&[&["simulate", "sand.toml", "--steps", "60", "-o", "far.npz"], &other[..]].concat()).succeeded();
+    draw(&["-o", "far.png", "--state", "far.npz"]).succeeded();
+    draw(&[&["-o", "sixty.png", "--set", "desert.steps=60"], &other[..]].concat()).succeeded();
+    assert!(pixels(&place, "far.png") == pixels(&place, "sixty.png"), "the state's own step");
+    assert!(pixels(&place, "far.png") != pixels(&place, "whole.png"), "other sand");
+
+    let refused =
+        |words: &[&str], part: &str| draw(&[&["-o", "f.png", "--state", "s.npz"], words].concat()).refused(2, part);
+    refused(&["--set", "dunes.side=128"], "cannot start from s.npz: ");
+}
+
+#[test]
+fn sand_moves_from_frame_to_frame_and_goes_on_where_an_animation_broke_off() {
+    let place = Place::new();
+    place.write("sand.toml", SAND);
+    let draw = |words: &[&str]| place.run(&[&["render", "sand.toml", "--fps", "2"], words].concat());
+    draw(&["-o", "f-#.png", "--frames", "0-2", "--sand-speed", "20"]).succeeded();
+    place.run(&["render", "sand.toml", "-o", "still.png", "--set", "desert.steps=60"]).succeeded();
+    assert!(pixels(&place, "still.png") == pixels(&place, "f-2.png"), "a second later, 20 steps");
+    assert!(pixels(&place, "f-0.png") != pixels(&place, "f-1.png"), "the sand has moved");
+
+    let whole = place.read("f-2.png");
+    std::fs::remove_file(place.path("f-2.png")).unwrap();
+    let run = draw(&["-o", "f-#.png", "--frames", "0-2", "--sand-speed", "20", "--resume"]).succeeded();
+    assert!(run.stderr.contains("1 frames in") && run.stderr.contains("2 were there already"), "{}", run.stderr);
+    assert!(place.read("f-2.png") == whole, "the same bytes without those before it");
+    draw(&["-o", "g-#.png", "--frames", "1-2", "--sand-speed", "0"]).succeeded();
+    assert!(pixels(&place, "g-1.png") == pixels(&place, "g-2.png"), "it stands still at 0");
+    draw(&["-o", "g-#.png", "--frames", "1-2", "--sand-speed=-1"]).refused(2, "a number of steps from 0 to 100000");
+}
+
 #[test]
 fn ranges_and_names_that_do_not_fit_are_refused() {
     let place = place();

@@ -54,6 +54,11 @@ impl From<RenderError> for Failure {
             RenderError::Scene(error) => Self::Scene(error),
             RenderError::Clouds(error) => Self::Scene(error.into()),
             RenderError::DesertFile(error) => error.into(),
+            RenderError::Sand(error) => Self::Scene(error.into()),
+            RenderError::Refused(error) => match &*error {
+                RenderError::Sand(error) => Self::Scene(error.clone().into()),
+                _ => Self::Render(RenderError::Refused(error)),
+            },
             other => Self::Render(other),
         }
     }

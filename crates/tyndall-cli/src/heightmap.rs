@@ -26,8 +26,8 @@ use write::Writer;
 
 const EXAMPLES: &str = "\
 Examples:
-  tyndall heightmap dunes.toml -o dunes.png --maps normal,ripples,sand
-  tyndall heightmap dunes.toml --state later.npz -o dunes.exr
+  tyndall heightmap preset:barchans -o dunes.png --maps normal,ripples,sand
+  tyndall heightmap preset:barchans --state later.npz -o dunes.exr
   tyndall heightmap dunes.toml -o tile.r16 --tiles 4x4 --maps all
   tyndall heightmap dunes.toml -o dunes.glb
 

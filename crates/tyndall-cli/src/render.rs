@@ -31,7 +31,7 @@ use crate::values::parse_size_px;
 use crate::{Exit, Failure};
 
 pub use format::{Bits, CompressionName, FormatArguments, OutputFormat};
-pub use frames::{FrameRange, frame_path, parse_frames, parse_rate, scene_of_frame};
+pub use frames::{FrameRange, Pace, frame_path, parse_frames, parse_rate, parse_sand_speed, scene_of_frame};
 use job::Job;
 use write::Written;
 
@@ -44,6 +44,8 @@ Examples:
   tyndall render dusk.toml -o truth.png --reference --paths 256 --size 320x180
   tyndall render clouds.toml -o clouds.npy --unit-sun
   tyndall render preset:cumulus -o 'sky-####.png' --frames 0-239 --fps 24 --speed 60
+  tyndall render preset:barchans -o 'sand-####.png' --frames 0-239 --sand-speed 48
+  tyndall render preset:barchans --state later.npz -o later.png
 
 Units are in the names of the parameters (altitude_m, elevation_deg);
 `tyndall params` lists them all. EXR holds the light of the scene, linear
@@ -85,6 +87,10 @@ pub struct RenderArguments {
     /// Seconds that pass for the scene's clouds in a second of the animation
     #[arg(long, value_name = "N", default_value_t = 60.0, value_parser = parse_rate, requires = "frames")]
     pub speed: f64,
+    /// Steps that the wind makes on the scene's sand in a second of the animation; 30 unless given, and 0 in a scene with
+    /// clouds, for which a step of the sand, some days, is a long time
+    #[arg(long, value_name = "N", value_parser = parse_sand_speed, requires = "frames")]
+    pub sand_speed: Option<f64>,
     /// Leave frames alone that are there already, whole and of the same scene
     #[arg(long, requires = "frames")]
     pub resume: bool,
@@ -130,6 +136,7 @@ fn render(arguments: &RenderArguments, progress: &mut Progress) -> Result<(), Fa
     let interrupt = Interrupt::listen().map_err(Failure::Signals)?;
     let state = arguments.start.load(&scene, None, progress)?;
     let (state, scene) = (state.as_ref(), arguments.start.advanced(&scene, state.as_ref())?);
+    arguments.start.check(&scene, state)?;
     let mut frame = if arguments.reference {
         reference::frame(&scene, format, (arguments.paths, arguments.seed), &interrupt, progress)?
     } else {

@@ -28,11 +28,12 @@ Examples:
   tyndall simulate preset:cumulus --steps 200 -o later.npz
   tyndall simulate preset:cumulus --state later.npz --steps 50 -o latest.npz
   tyndall render preset:cumulus --state latest.npz -o latest.png
-  tyndall simulate dunes.toml --steps 4000 -o dunes.npz --of desert
+  tyndall simulate preset:barchans --steps 4000 -o dunes.npz
+  tyndall render preset:barchans --state dunes.npz -o dunes.png
 
 A state of clouds holds an array `cells` of bytes, index [x, y, z] from west, south and
 below: hum + 2 act + 4 cld; one of a desert `height`, `sand` and `bedrock`, index
-[x, y], in 1/256 of a cell. Its hash is printed on standard output with the step.";
+[x, y], in 1/256 of a cell, and `moved_at`, the step in which a cell changed last. Its hash is printed on standard output with the step.";
 
 /// What `tyndall simulate` takes.
 #[derive(Clone, Debug, clap::Args)]
@@ -88,6 +89,17 @@ impl StartArguments {
             progress.warn("the state comes from other parameters; from here on those of the scene count");
         }
         Ok(Some(state))
+    }
+
+    /// Makes sure that the scene goes on from the state, before anything that takes time.
+    ///
+    /// # Errors
+    /// When the state is damaged or that of other cells.
+    pub fn check(&self, scene: &Scene, state: Option<&NamedArrays>) -> Result<(), Failure> {
+        let Some(state) = state else { return Ok(()) };
+        let kind = scene.simulated(None, Some(state))?;
+        let inputs = if kind == SimulationKind::Desert { desert_inputs(scene)? } else { DesertInputs::default() };
+        scene.simulation(kind, &inputs, Some(state)).map(drop).map_err(|error| self.blame(error.into()))
     }
 
     /// The scene whose picture a desert's state belongs to: one that is further than `desert.steps` is shown as it is.

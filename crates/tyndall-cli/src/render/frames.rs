@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use tyndall_scene::Scene;
+use tyndall_scene::{DesertKind, Scene};
 
 use crate::Failure;
 
@@ -60,6 +60,15 @@ pub fn parse_rate(text: &str) -> Result<f64, String> {
     rate.ok_or_else(|| "a number from 0.001 to 100000".to_owned())
 }
 
+/// Steps of the wind in a second of the animation; 0 holds the sand still.
+///
+/// # Errors
+/// A sentence for the user.
+pub fn parse_sand_speed(text: &str) -> Result<f64, String> {
+    let speed = text.parse::<f64>().ok().filter(|speed| (0.0..=1e5).contains(speed));
+    speed.ok_or_else(|| "a number of steps from 0 to 100000".to_owned())
+}
+
 /// The file of a frame: the number takes the place of the `#` in its name, with zeros in front.
 ///
 /// # Errors
@@ -79,15 +88,31 @@ pub fn frame_path(pattern: &Path, frame: u32) -> Result<PathBuf, Failure> {
     Ok(pattern.with_file_name(format!("{before}{frame:0digits$}{after}")))
 }
 
-/// The scene as a frame shows it: its clouds `frame` / `fps` seconds of the animation later, in which `speed` times as many
-/// seconds pass in the scene. Frame 0 is the scene itself; no frame depends on another.
+/// How fast an animation is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// Frames in a second of the animation.
+    pub fps: f64,
+    /// Seconds that pass for clouds in a second of the animation.
+    pub speed: f64,
+    /// Steps that the wind makes on sand in a second of the animation.
+    pub sand_speed: f64,
+}
+
+/// The scene as a frame shows it: `frame` / `fps` seconds of the animation later, as far as clouds and sand get until then.
+/// Frame 0 is the scene itself; no frame depends on another.
 ///
 /// # Errors
-/// When the time is beyond what the scene's parameter allows.
-pub fn scene_of_frame(scene: &Scene, frame: u32, fps: f64, speed: f64) -> Result<Scene, Failure> {
+/// When time or step are beyond what the scene's parameters allow.
+pub fn scene_of_frame(scene: &Scene, frame: u32, pace: Pace) -> Result<Scene, Failure> {
     let mut scene = scene.clone();
-    let time_s = scene.clouds.time_s + f64::from(frame) * speed / fps;
-    scene.set("clouds.time_s", time_s)?;
+    let later = |speed: f64| f64::from(frame) * speed / pace.fps;
+    scene.set("clouds.time_s", scene.clouds.time_s + later(pace.speed))?;
+    if scene.desert.kind == DesertKind::Dunes {
+        // Thirds and the like must not lose a step to rounding.
+        let steps = (later(pace.sand_speed) + 1e-6).floor();
+        scene.set("desert.steps", f64::from(scene.desert.steps) + steps)?;
+    }
     Ok(scene)
 }
 
@@ -124,10 +149,16 @@ mod tests {
     fn frames_are_moments_of_the_scene_and_depend_on_nothing_else() {
         let mut scene = Scene::default();
         scene.clouds.time_s = 30.0;
-        assert_eq!(scene_of_frame(&scene, 0, 24.0, 60.0).unwrap(), scene, "frame 0 is the scene");
-        let later = scene_of_frame(&scene, 36, 24.0, 60.0).unwrap();
+        let pace = Pace { fps: 24.0, speed: 60.0, sand_speed: 30.0 };
+        assert_eq!(scene_of_frame(&scene, 0, pace).unwrap(), scene, "frame 0 is the scene");
+        let later = scene_of_frame(&scene, 36, pace).unwrap();
         assert!((later.clouds.time_s - 120.0).abs() < 1e-9, "{}", later.clouds.time_s);
-        let failure = scene_of_frame(&scene, 999_999, 1.0, 60.0).expect_err("beyond the range");
+        assert_eq!(later.desert, scene.desert, "no sand, no steps");
+        scene.desert.kind = DesertKind::Dunes;
+        scene.desert.steps = 7;
+        let steps = [1, 2, 3, 36].map(|frame| scene_of_frame(&scene, frame, pace).unwrap().desert.steps);
+        assert_eq!(steps, [8, 9, 10, 52], "30 steps in 24 frames, whole ones");
+        let failure = scene_of_frame(&scene, 999_999, Pace { fps: 1.0, ..pace }).expect_err("beyond the range");
         assert!(failure.to_string().contains("`clouds.time_s` = 59999970 s is outside 0 to 100000 s"), "{failure}");
     }
 }

@@ -11,16 +11,19 @@ use tyndall_core::array::NamedArrays;
 use tyndall_gpu::GpuOptions;
 use tyndall_io::atomic::check_writable;
 use tyndall_io::is_finished;
-use tyndall_scene::Scene;
+use tyndall_scene::{CloudKind, Scene};
 
 use super::format::OutputFormat;
 use super::frame::{Frame, twice};
-use super::frames::{FrameRange, frame_path, scene_of_frame};
+use super::frames::{FrameRange, Pace, frame_path, scene_of_frame};
 use super::session::{Session, Studio};
 use super::{RenderArguments, header, write};
 use crate::Failure;
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
+
+/// Steps of the wind in a second of the animation where sand alone moves.
+const SAND_SPEED: f64 = 30.0;
 
 /// One frame of the list.
 #[derive(Debug)]
@@ -49,6 +52,7 @@ pub(super) fn run(
 ) -> Result<(), Failure> {
     let state = arguments.start.load(scene, None, progress)?;
     let scene = &arguments.start.advanced(scene, state.as_ref())?;
+    arguments.start.check(scene, state.as_ref())?;
     let shots: Result<Vec<Shot>, Failure> = range.frames().map(|number| shot(arguments, scene, number)).collect();
     let shots = shots?;
     if let Some(first) = shots.first() {
@@ -66,7 +70,10 @@ pub(super) fn run(
 
 fn shot(arguments: &RenderArguments, scene: &Scene, number: u32) -> Result<Shot, Failure> {
     let path = frame_path(&arguments.output, number)?;
-    Ok(Shot { number, scene: scene_of_frame(scene, number, arguments.fps, arguments.speed)?, path })
+    let calm = if scene.clouds.kind == CloudKind::None { SAND_SPEED } else { 0.0 };
+    let sand_speed = arguments.sand_speed.unwrap_or(calm);
+    let pace = Pace { fps: arguments.fps, speed: arguments.speed, sand_speed };
+    Ok(Shot { number, scene: scene_of_frame(scene, number, pace)?, path })
 }
 
 impl Sequence<'_> {
@@ -81,7 +88,7 @@ impl Sequence<'_> {
                 continue;
             }
             let started = Instant::now();
-            let frame = self.frame(shot, &mut session)?;
+            let frame = self.frame(shot, &mut session).map_err(|failure| self.arguments.start.blame(failure))?;
             self.save(shot, &frame)?;
             drawn += 1;
             self.progress.item(

@@ -3,7 +3,7 @@
 use tyndall_core::array::NamedArrays;
 use tyndall_gpu::{Gpu, GpuOptions};
 use tyndall_render::{FrameTarget, Renderer};
-use tyndall_scene::Scene;
+use tyndall_scene::{Scene, SimulationKind};
 
 use super::format::OutputFormat;
 use super::frame::{Frame, config, read, wait};
@@ -47,7 +47,9 @@ impl<'a> Studio<'a> {
         self.stage(Stage::Pipelines)?;
         let mut renderer = Renderer::new(&gpu, config)?;
         renderer.set_table_store(self.cache.store());
-        renderer.start_clouds_from(self.state.cloned());
+        let state = |kind| self.state.filter(|state| SimulationKind::of_state(state) == Some(kind)).cloned();
+        renderer.start_clouds_from(state(SimulationKind::Clouds));
+        renderer.start_desert_from(state(SimulationKind::Desert));
         let target = FrameTarget::new(&gpu, self.size_px, config)?;
         Ok(Session { studio: self, gpu, renderer, target })
     }

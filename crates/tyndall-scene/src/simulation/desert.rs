@@ -22,7 +22,12 @@ impl DesertRun {
         state: Option<&NamedArrays>,
     ) -> Result<Self, SceneError> {
         let simulation = match state {
-            None => DesertSimulation::cold(params, inputs)?,
+            None => {
+                let mut simulation = DesertSimulation::cold(params, inputs)?;
+                // From the first step on it is known when each cell moved; a state without that cannot tell any more.
+                simulation.keep_ages();
+                simulation
+            }
             Some(state) => DesertSimulation::from_state(params, inputs, state)?,
         };
         let steps_to_picture = steps.saturating_sub(simulation.step_count());
