@@ -2,6 +2,7 @@
 // by `transport`, and gathered with that medium's transmittance; see tyndall_clouds::cloud_light.
 // @import clouds/clouds.wgsl
 // @import clouds/detail.wgsl
+// @import clouds/forward.wgsl
 // @import clouds/shade.wgsl
 // @import common/phase.wgsl
 // @import sky/view.wgsl
@@ -16,10 +17,10 @@ const CLOUD_STEP_GROWTH: f32 = 0.01;
 const CLOUD_NEAR_CELLS: f32 = 1.5;
 /// Transmittance from which on a ray misses the shadows of turbulence, and how much longer its steps are then.
 const CLOUD_DIM: f32 = 0.03;
-const CLOUD_DIM_STEPS: f32 = 4.0;
+const CLOUD_DIM_STEPS: f32 = 2.0;
 /// Transmittances at which a ray has seen enough.
 const CLOUD_DARK: f32 = 0.002;
-const CLOUD_DARK_DIFFUSE: f32 = 0.01;
+const CLOUD_DARK_DIFFUSE: f32 = 0.04;
 /// Share of the reach over which clouds fade out.
 const CLOUD_FADE: f32 = 0.25;
 
@@ -49,15 +50,6 @@ fn cloud_span(mu: f32, limit_m: f32) -> vec2<f32> {
     let end = select(through_floor, ceiling.y, is_below);
     let misses = is_above & (ceiling.x <= 0.0);
     return vec2<f32>(max(start, 0.0), select(min(end, min(limit_m, clouds.reach_m)), 0.0, misses));
-}
-
-/// Radiance (1/sr) over transmitted sunlight of light scattered once, and that of what narrow forward scattering adds.
-fn cloud_phases(nu: f32) -> vec2<f32> {
-    let once = phase_double_henyey_greenstein(nu, clouds.asymmetry, clouds.forward_weight);
-    // Scattered forward a few times: the lobe is as wide as those of all these scatterings together, six in the mean.
-    let square = clouds.asymmetry * clouds.asymmetry;
-    let wide = square * square * square;
-    return vec2<f32>(once, phase_double_henyey_greenstein(nu, wide, clouds.forward_weight));
 }
 
 /// Optical depth towards the sun: what is near with its turbulence, the rest from the cells.
@@ -116,7 +108,8 @@ fn cloud_next(direction: vec3<f32>, start_m: f32, end_m: f32, stretch: f32, jitt
 /// Gathers light along a ray up to `limit_m`; `jitter` 0..1 moves the samples within their steps.
 fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
     let span = cloud_span(direction.z, limit_m);
-    let phases = cloud_phases(cloud_shade_cosine(direction));
+    let nu = cloud_shade_cosine(direction);
+    let once = phase_double_henyey_greenstein(nu, clouds.asymmetry, clouds.forward_weight);
     var light = CloudLight(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
     let often = f32(clouds.all_orders);
     var thin = 1.0; // transmittance for light that was scattered often
@@ -135,13 +128,15 @@ fn cloud_march(direction: vec3<f32>, limit_m: f32, jitter: f32) -> CloudLight {
         }
         let left = exp(-depth);
         let seen = light.transmittance * (1.0 - left);
-        let direct = exp(-sun_depth);
-        light.sun += seen * phases.x * direct;
+        light.sun += seen * once * exp(-sun_depth);
         light.distance_m += seen * piece.distance_m;
+        let eye_depth = 0.5 * depth - log(max(light.transmittance, 1e-30));
         light.transmittance *= left;
         let left_thin = exp(-clouds.transport * depth);
         let seen_thin = often * thin * (1.0 - left_thin);
-        light.sun += seen_thin * (phases.y * (exp(-clouds.transport * sun_depth) - direct) + cell.y);
+        // Light spread a little does not see single eddies.
+        let turn = CloudTurn(cell.x, eye_depth, seen, seen_thin);
+        light.sun += seen_thin * cell.y + often * cloud_forward(nu, turn);
         light.sky += seen_thin * cell.z;
         light.ground += seen_thin * (1.0 - cell.z);
         thin *= left_thin;

@@ -25,3 +25,10 @@ fn phase_henyey_greenstein(cos_theta: f32, g: f32) -> f32 {
 fn phase_double_henyey_greenstein(cos_theta: f32, g: vec2<f32>, forward_weight: f32) -> f32 {
     return mix(phase_henyey_greenstein(cos_theta, g.y), phase_henyey_greenstein(cos_theta, g.x), forward_weight);
 }
+
+/// The same after `orders` scatterings, more than 1: mean cosines of a lobe multiply. Light never turned back keeps to the first
+/// lobe; what did counts as turned once.
+fn phase_of_orders(cos_theta: f32, orders: f32, g: vec2<f32>, forward_weight: f32) -> f32 {
+    let narrow = pow(g.x, orders - 1.0);
+    return phase_double_henyey_greenstein(cos_theta, narrow * g, pow(forward_weight, orders));
+}

@@ -4,12 +4,17 @@
 @group(2) @binding(20) var splat_once: texture_2d<f32>;  // direct sunlight, distance (m), 0, transmittance
 @group(2) @binding(21) var splat_often: texture_2d<f32>; // scattered forward, often (1/sr), of the sky, transmittance
 
+/// Mean number of scatterings of light that was scattered forward alone.
+const SPLAT_ORDERS: f32 = 6.0;
+
 /// The light that reaches a pixel from the splats.
 fn splat_light(direction: vec3<f32>, pixel: vec2<u32>) -> CloudLight {
     let once = textureLoad(splat_once, pixel, 0);
     let often = f32(clouds.all_orders) * (textureLoad(splat_often, pixel, 0) - vec4<f32>(0.0, 0.0, 0.0, 1.0));
-    let phases = cloud_phases(cloud_shade_cosine(direction));
-    let sun = once.x * phases.x + often.x * phases.y + often.y;
+    let nu = cloud_shade_cosine(direction);
+    let straight = phase_double_henyey_greenstein(nu, clouds.asymmetry, clouds.forward_weight);
+    let wide = phase_of_orders(nu, SPLAT_ORDERS, clouds.asymmetry, clouds.forward_weight);
+    let sun = once.x * straight + often.x * wide + often.y;
     let distance_m = once.y / max(1.0 - once.w, 1e-6);
     let behind = f32(clouds.all_orders) * (1.0 - once.w) + often.w;
     return CloudLight(sun, often.z, -often.w - often.z, once.w, distance_m, behind);

@@ -16,6 +16,7 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "clouds/air.wgsl",
     "clouds/clouds.wgsl",
     "clouds/detail.wgsl",
+    "clouds/forward.wgsl",
     "clouds/march.wgsl",
     "clouds/shade.wgsl",
     "clouds/shadow.wgsl",

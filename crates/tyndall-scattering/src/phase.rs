@@ -32,6 +32,15 @@ pub fn phase_double_henyey_greenstein(cos_theta: f64, [forward, backward]: [f64;
         + (1.0 - forward_weight) * phase_henyey_greenstein(cos_theta, backward)
 }
 
+/// [`phase_double_henyey_greenstein`] after a number of scatterings, 1 or more: the moments of a lobe multiply (Goudsmit and
+/// Saunderson 1940), which for Henyey and Greenstein's makes a lobe of its kind. Light that was never turned back keeps to
+/// the forward lobe; the rest counts as turned back once.
+#[must_use]
+pub fn phase_of_orders(cos_theta: f64, orders: f64, g: [f64; 2], forward_weight: f64) -> f64 {
+    let narrow = g[0].powf(orders - 1.0);
+    phase_double_henyey_greenstein(cos_theta, g.map(|g| narrow * g), forward_weight.powf(orders))
+}
+
 /// Which phase function a medium has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Phase {
@@ -101,6 +110,29 @@ mod tests {
             let mean = moment(Phase::HenyeyGreenstein { g }, 1);
             assert!((mean - g).abs() < 1e-9, "g = {g}: {mean}");
         }
+    }
+
+    #[test]
+    fn lobes_of_many_orders_are_those_of_one_convolved_with_themselves() {
+        let (g, weight) = ([0.89, -0.5], 0.94);
+        for cosine in [-1.0, -0.2, 0.4, 1.0] {
+            let (one, want) =
+                (phase_of_orders(cosine, 1.0, g, weight), phase_double_henyey_greenstein(cosine, g, weight));
+            assert!((one - want).abs() < 1e-15, "one order at {cosine}: {one}, {want}");
+        }
+        for orders in [2.0, 3.0, 7.5] {
+            let moment = |power: i32| {
+                2.0 * PI * integrate(-1.0, 1.0, 4000, |mu| phase_of_orders(mu, orders, g, weight) * mu.powi(power))
+            };
+            assert!((moment(0) - 1.0).abs() < 1e-9, "{orders} orders keep the light: {}", moment(0));
+            // One lobe alone is exact: its moments are powers of its mean cosine.
+            let alone = 2.0 * PI * integrate(-1.0, 1.0, 4000, |mu| phase_of_orders(mu, orders, [0.89, 0.0], 1.0) * mu);
+            assert!((alone - 0.89_f64.powf(orders)).abs() < 1e-9, "{orders} orders of one lobe: {alone}");
+        }
+        // Twice: 0.94^2 of 0.89^2, twice 0.94 x 0.06 of 0.89 x -0.5; the 0.06^2 that turned back twice count as once.
+        let found = 2.0 * PI * integrate(-1.0, 1.0, 4000, |mu| phase_of_orders(mu, 2.0, g, weight) * mu);
+        let want = (0.94 * 0.89 - 0.06 * 0.5_f64).powi(2);
+        assert!((found - want).abs() < 0.0036 * (0.89 * 0.5 + 0.25) + 1e-9, "mean cosine after two: {found}, {want}");
     }
 
     #[test]

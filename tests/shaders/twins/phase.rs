@@ -22,4 +22,10 @@ twins! { "common/phase.wgsl";
             phase::phase_double_henyey_greenstein(x[0], [x[1], x[2]], x[3])
         },
     }
+    // Powers of numbers below 1 add some roundings for each order, 20 of them here.
+    phase_of_orders in [-1.0..=1.0, 1.5..=20.0, 0.1..=0.95, 0.5..=1.0], within Tolerance::relative(3e-4), {
+        "phase_of_orders(x.x, x.y, vec2<f32>(x.z, -0.5 * x.z), x.w)" => |x| {
+            phase::phase_of_orders(x[0], x[1], [x[2], -0.5 * x[2]], x[3])
+        },
+    }
 }
