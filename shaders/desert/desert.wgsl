@@ -25,7 +25,7 @@ struct Desert {
     tile_texels: f32,        // of a side of the tile
     hexagon_m: f32,          // side of the triangles between which patches of ripples are blended
     moonlit: u32,            // 1 when the moon casts the shadows, not the sun
-    padding: u32,
+    relief: f32,             // 1, height of the tile's highest crest over its mean as a share of its side; 0 for flat normals
 }
 @group(2) @binding(0) var<storage, read> desert: Desert;
 

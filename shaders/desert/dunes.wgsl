@@ -5,7 +5,7 @@
 // @import desert/bed.wgsl
 // @import desert/glints.wgsl
 // @import desert/moonlight.wgsl
-// @import desert/ripples.wgsl
+// @import desert/relief.wgsl
 // @import landscape/place.wgsl
 // @import sky/light_lookup.wgsl
 
@@ -31,6 +31,7 @@ struct DunePixel {
     footprint_m: f32,
     wide_m: f32,
     facing: f32,           // cosine of the view to the dune's slope
+    ripple_shade: f32,     // share of the lamp's light between ripples
 }
 
 @vertex
@@ -46,6 +47,11 @@ fn dunes_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) ring
 fn dune_sun(horizon: f32, sun: vec3<f32>) -> f32 {
     let over = atan2(sun.z, max(length(sun.xy), 1e-5)) - atan(horizon);
     return smoothstep(-1.0, 1.0, over / desert.sun_half_width);
+}
+
+/// Direction to what casts the shadows.
+fn dune_lamp(sun: vec3<f32>) -> vec3<f32> {
+    return select(sun, moon.direction, desert.moonlit == 1u);
 }
 
 /// What sand sends to the camera of a lamp's light, relative to a white even surface that faces the lamp.
@@ -73,8 +79,8 @@ fn dune_radiance(pixel: DunePixel, albedo: vec3<f32>) -> vec3<f32> {
     let light = textureSampleLevel(dune_light, desert_sampler, desert_map_place(pixel.place), level);
     let shade = cloud_shade_at(pixel.place, pixel.altitude);
     let sunlight = sky_light_sun(pixel.altitude, sun.z);
-    let lamp = select(sun, moon.direction, desert.moonlit == 1u);
-    let seen = dune_sun(light.x, lamp) * shade.direct;
+    let lamp = dune_lamp(sun);
+    let seen = dune_sun(light.x, lamp) * pixel.ripple_shade * shade.direct;
     let direct = sunlight * seen;
     let from_sun = direct * dune_facing(pixel, sun);
     let sines = sqrt(max((1.0 - n.z * n.z) * (1.0 - sun.z * sun.z), 1e-12));
@@ -105,19 +111,23 @@ fn dunes_fragment(vertex: DuneVertex) -> @location(0) vec4<f32> {
     let distance = length(vertex.position);
     let view = -vertex.position / distance;
     let pixel_m = 0.7 * distance * frame_pixel_angle(plane);
-    let place = frame.position_m.xy + vertex.from_camera;
-    let coarse = bed_at(place, pixel_m);
+    let smooth_place = frame.position_m.xy + vertex.from_camera;
+    let coarse = bed_at(smooth_place, pixel_m);
     let facing = max(dot(normalize(vec3<f32>(-coarse.yz, 1.0)), view), 0.04);
     let wide_m = min(pixel_m * inverseSqrt(facing), 4.0 * pixel_m);
-    let bed = bed_at(place, wide_m);
-    let wind = ripple_wind(place, wide_m);
+    let bed = bed_at(smooth_place, wide_m);
+    let wind = ripple_wind(smooth_place, wide_m);
+    let sun = place_sun(vertex.from_camera);
+    let relief = relief_around(smooth_place, length(wind.xy), pixel_m, facing);
+    let hit = relief_hit(relief, smooth_place, bed.yz, view, distance);
+    let ripple_shade = relief_shade(relief, hit.xy, hit.z, bed.yz, dune_lamp(sun));
+    let place = hit.xy;
     let long = view.xy / max(length(view.xy), 1e-4) * pixel_m / facing;
     let quad_m = 0.25 * vertex.spacing;
     let ripples = ripples_at(place, long, select(pixel_m, quad_m, desert.ripples == 1u), length(wind.xy));
     let slope = bed.yz + ripples.slope;
     let normal = normalize(vec3<f32>(-slope, 1.0));
-    let sun = place_sun(vertex.from_camera);
-    let pixel = DunePixel(place, max(bed.x, 0.0), normal, slope, ripples.covariance, view, sun, pixel_m, wide_m, facing);
+    let pixel = DunePixel(place, max(bed.x, 0.0), normal, slope, ripples.covariance, view, sun, pixel_m, wide_m, facing, ripple_shade);
     let cover = wind.w * desert_inside(place);
     let radiance = dune_radiance(pixel, mix(desert.ground, desert.albedo, cover));
     let air = aerial_seen(plane, distance, sky_sun_cosine(-view));

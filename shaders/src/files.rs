@@ -37,6 +37,8 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "desert/glints.wgsl",
     "desert/mesh.wgsl",
     "desert/moonlight.wgsl",
+    "desert/relief.wgsl",
+    "desert/ripple_patches.wgsl",
     "desert/ripples.wgsl",
     "dunes/cells.wgsl",
     "dunes/dunes.wgsl",

@@ -214,7 +214,7 @@ fn desert() -> (&'static str, StructLayout) {
             tile_texels,
             hexagon_m,
             moonlit,
-            padding,
+            relief,
         }),
     )
 }

@@ -7,5 +7,6 @@ mod layouts;
 mod loops;
 mod modules;
 mod portability;
+mod relief;
 mod rules;
 mod twins;

@@ -2,7 +2,7 @@
 
 use tyndall_scene::{
     AerosolInput, CameraProjection, CloudFileHolds, CloudKind, CloudMethod, DesertKind, DuneModel, Edges, ExposureMode,
-    LandscapeKind, MoonPhase, MoonPosition, Orders, Scene, SkyMode, SunPosition,
+    LandscapeKind, MoonPhase, MoonPosition, Orders, RippleLook, Scene, SkyMode, SunPosition,
 };
 
 /// Why a parameter changes nothing in this scene; `None` when it does.
@@ -31,6 +31,9 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
             if scene.desert.kind == DesertKind::None =>
         {
             Some("There is no desert; set Kind of the desert to dunes.")
+        }
+        ("sand", "relief") if scene.sand.ripples != RippleLook::Best => {
+            Some("Ripples are absent or normals alone; set Ripples to best.")
         }
         ("desert", name) => desert(scene, group, name),
         ("dune_wind", name) => desert(scene, group, name).or_else(|| dunes(scene, group, name)),

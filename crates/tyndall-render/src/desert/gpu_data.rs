@@ -1,6 +1,6 @@
 //! The desert's uniform and how it follows from a scene.
 
-use tyndall_scene::{RippleLook, Scene};
+use tyndall_scene::{RippleLook, SandParams, Scene};
 
 use super::mesh::DesertMesh;
 
@@ -31,7 +31,7 @@ pub struct Desert {
     pub tile_texels: f32,
     pub hexagon_m: f32,
     pub moonlit: u32,
-    pub padding: u32,
+    pub relief: f32,
 }
 
 /// Half the width (rad) over which a shadow's edge fades: the sun's radius, and what the air's glow around it adds.
@@ -77,9 +77,16 @@ impl Desert {
             tile_texels: tile.texels as f32,
             hexagon_m: (RIPPLES_A_PATCH * sand.ripple_length_m) as f32,
             moonlit: u32::from(is_moonlit),
-            padding: 0,
+            relief: relief(sand, tile),
         }
     }
+}
+
+/// Height of the tile's highest crest as a share of its side; 0 when ripples are normals alone.
+#[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
+fn relief(sand: &SandParams, tile: TileScale) -> f32 {
+    let has_relief = sand.relief && sand.ripples == RippleLook::Best && tile.texels > 0;
+    if has_relief { (tile.height / tile.texels as f64 * TILE_INDEX / sand.ripple_index) as f32 } else { 0.0 }
 }
 
 /// How large a tile of ripples is.
@@ -89,4 +96,6 @@ pub struct TileScale {
     pub texels: usize,
     /// Ripples along a side.
     pub ripples: f64,
+    /// Height (texels) over the mean of its highest crest, or depth of its deepest trough.
+    pub height: f64,
 }

@@ -2,12 +2,13 @@
 //!
 //! The field of dunes is simulated up to the scene's step when it is first drawn, or goes on from the step before. Its heights
 //! are smooth splines ([`bed`]), drawn as a mesh of rings around the camera ([`mesh`]) with the exact slope at each pixel;
-//! ripples are slopes ([`ripple_tile`]). The sun's shadow and the sky's openness come from horizons of the field, which a
+//! ripples are slopes and heights ([`ripple_tile`]), which hide and shade each other near the
+//! camera. The sun's shadow and the sky's openness come from horizons of the field, which a
 //! periodic field repeats to the planet's horizon.
 //!
 //! At night the moon lights it and casts the shadows.
 //!
-//! Not done: ripples do not change the outline of the sand or cast shadows.
+//! Not done: ripples do not change the outline of the sand.
 
 pub mod bed;
 mod building;
@@ -60,7 +61,7 @@ pub struct DesertRenderer {
     /// Maps of the bed, and its revision.
     bed: Option<(u64, BedTextures)>,
     /// Textures of the tile of ripples, and its revision.
-    tile: Option<(u64, [Texture; 2])>,
+    tile: Option<(u64, [Texture; 3])>,
     tile_sampler: wgpu::Sampler,
     /// Light of the sun or the moon.
     light: Option<(LightKey, Texture)>,
@@ -239,6 +240,7 @@ impl DesertRenderer {
             ("dune_light", light.as_binding()),
             ("ripple_tile", tile[0].as_binding()),
             ("ripple_cross", tile[1].as_binding()),
+            ("ripple_heights", tile[2].as_binding()),
             ("ripple_winds", bed.winds.as_binding()),
             ("desert_sampler", wgpu::BindingResource::Sampler(&bed.sampler)),
             ("ripple_sampler", wgpu::BindingResource::Sampler(&self.tile_sampler)),

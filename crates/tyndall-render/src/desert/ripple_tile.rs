@@ -21,6 +21,8 @@ pub type Moments = [f32; 5];
 pub struct RippleTile {
     /// Moments of each level, x runs fastest.
     pub levels: Vec<Vec<Moments>>,
+    /// Mean heights of each level's texels over the tile's mean, as shares of `scale.height`.
+    pub heights: Vec<Vec<f32>>,
     /// Its size.
     pub scale: TileScale,
 }
@@ -43,7 +45,11 @@ impl RippleTile {
     #[expect(clippy::cast_possible_truncation, reason = "textures hold less than f32")]
     pub fn of_heights(heights: &[f32], side: usize) -> Self {
         let Some(grid) = HeightGrid::new([side, side], heights.to_vec()) else {
-            return Self { levels: Vec::new(), scale: TileScale { texels: 0, ripples: 1.0 } };
+            return Self {
+                levels: Vec::new(),
+                heights: Vec::new(),
+                scale: TileScale { texels: 0, ripples: 1.0, height: 0.0 },
+            };
         };
         let wavelength_cells = mean_wavelength_cells(&grid, side / 4);
         // A flat bed has no waves at all.
@@ -56,19 +62,35 @@ impl RippleTile {
             let [bx, by] = grid.gradient(x, y).map(|slope| (gain * slope) as f32);
             [bx, by, bx * bx, by * by, bx * by]
         };
-        let mut levels = vec![(0..side * side).map(moments).collect::<Vec<Moments>>()];
-        let mut width = side;
-        while width > 1 {
-            let coarser = levels.last().map(|finer| halve(finer, width));
-            levels.extend(coarser);
-            width /= 2;
+        let mean = grid.mean_cells();
+        let over = |height: &f32| gain * (f64::from(*height) - mean);
+        let highest = heights.iter().map(|height| over(height).abs()).fold(0.0, f64::max);
+        let share = |height: &f32| if highest > 0.0 { (over(height) / highest) as f32 } else { 0.0 };
+        Self {
+            levels: halves((0..side * side).map(moments).collect(), side),
+            heights: halves(heights.iter().map(|height| [share(height)]).collect(), side)
+                .into_iter()
+                .map(|level| level.into_flattened())
+                .collect(),
+            scale: TileScale { texels: side, ripples: side as f64 / wavelength_cells, height: highest },
         }
-        Self { levels, scale: TileScale { texels: side, ripples: side as f64 / wavelength_cells } }
     }
 }
 
+/// Mip levels of a square of a side, the finest first.
+fn halves<const PARTS: usize>(finest: Vec<[f32; PARTS]>, side: usize) -> Vec<Vec<[f32; PARTS]>> {
+    let mut levels = vec![finest];
+    let mut width = side;
+    while width > 1 {
+        let coarser = levels.last().map(|finer| halve(finer, width));
+        levels.extend(coarser);
+        width /= 2;
+    }
+    levels
+}
+
 /// The next mip level.
-fn halve(finer: &[Moments], width: usize) -> Vec<Moments> {
+fn halve<const PARTS: usize>(finer: &[[f32; PARTS]], width: usize) -> Vec<[f32; PARTS]> {
     let half = width / 2;
     let mean = |index: usize| {
         let [x, y] = [2 * (index % half), 2 * (index / half)];
@@ -169,6 +191,24 @@ mod tests {
                     assert!((found - wanted).abs() < 1e-6, "level {number}, texel {index}: {found}, not {wanted}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn differences_of_heights_are_the_slopes_of_the_tile() {
+        for (name, tile) in [("sine", sine(8.0)), ("ripples", real())] {
+            let (heights, size) = (&tile.heights[0], tile.scale.height);
+            let at = |x: usize, y: usize| size * f64::from(heights[y % SIDE * SIDE + x % SIDE]);
+            for (index, texel) in tile.levels[0].iter().enumerate() {
+                let [x, y] = [index % SIDE + SIDE, index / SIDE + SIDE];
+                let slopes = [at(x + 1, y) - at(x - 1, y), at(x, y + 1) - at(x, y - 1)].map(|rise| 0.5 * rise);
+                for (slope, wanted) in slopes.into_iter().zip(*texel) {
+                    assert!((slope - f64::from(wanted)).abs() < 1e-5, "{name}, texel {index}: {slope}, not {wanted}");
+                }
+            }
+            let mean = heights.iter().map(|height| f64::from(*height)).sum::<f64>() / heights.len() as f64;
+            let highest = heights.iter().fold(0.0_f32, |most, height| most.max(height.abs()));
+            assert!(mean.abs() < 1e-6 && (highest - 1.0).abs() < 1e-6, "{name}: mean {mean}, highest {highest}");
         }
     }
 

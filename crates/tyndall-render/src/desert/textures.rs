@@ -41,16 +41,18 @@ pub(super) fn light_texture(gpu: &Gpu, bed: &Bed, fineness: usize, light: &[[f32
     of_halves(gpu, "light on the desert", bed.heights.size().map(|count| count * fineness), light)
 }
 
-/// The tile of ripples: slopes with squares of them, and the mixed product.
-pub(super) fn tile_textures(gpu: &Gpu, tile: &RippleTile) -> Result<[Texture; 2], RenderError> {
+/// The tile of ripples: slopes with squares of them, the mixed product, and heights.
+pub(super) fn tile_textures(gpu: &Gpu, tile: &RippleTile) -> Result<[Texture; 3], RenderError> {
     let size = [tile.scale.texels; 2];
     let half = |value: f32| f16::from_f32(value).to_bits();
     let slopes: Vec<Vec<[u16; 4]>> =
         tile.levels.iter().map(|level| level.iter().map(|m| [m[0], m[1], m[2], m[3]].map(half)).collect()).collect();
     let cross: Vec<Vec<u16>> = tile.levels.iter().map(|level| level.iter().map(|m| half(m[4])).collect()).collect();
+    let heights: Vec<Vec<u16>> = tile.heights.iter().map(|level| level.iter().copied().map(half).collect()).collect();
     Ok([
         levels(gpu, "slopes of ripples", size, TextureFormat::Rgba16Float, &slopes)?,
         levels(gpu, "moments of ripples", size, TextureFormat::R16Float, &cross)?,
+        levels(gpu, "heights of ripples", size, TextureFormat::R16Float, &heights)?,
     ])
 }
 

@@ -31,6 +31,8 @@ params! {
         glints: f64 = 0.5, ["1", 0.0..=1.0, Linear], "design";
         /// How ripples are drawn.
         ripples: RippleLook = RippleLook::Best, "paper section 5.3; Olano and Baker 2010";
+        /// Whether ripples near the camera hide and shade each other.
+        relief: bool = true, "Policarpo, Oliveira and Comba 2005";
         /// Length of ripples on level sand, from crest to crest.
         ripple_length_m: f64 = 0.14, ["m", 0.01..=5.0, Log], "Bagnold 1941: 7 to 14 cm";
         /// Length of a ripple over its height.
