@@ -70,7 +70,7 @@ impl RippleTile {
             levels: halves((0..side * side).map(moments).collect(), side),
             heights: halves(heights.iter().map(|height| [share(height)]).collect(), side)
                 .into_iter()
-                .map(|level| level.into_flattened())
+                .map(Vec::into_flattened)
                 .collect(),
             scale: TileScale { texels: side, ripples: side as f64 / wavelength_cells, height: highest },
         }
