@@ -318,7 +318,15 @@ pub(crate) const ALL: &[Precondition] = &[
             (scene.camera.altitude_m, scene.camera.pitch_deg, scene.camera.heading_deg) = (1.0, -30.0, 120.0);
             (scene.sun.elevation_deg, scene.sun.azimuth_deg) = (25.0, 120.0);
         },
-        parameters: &[("sand.glints", Some(0.0)), ("sand.relief", None)],
+        parameters: &[("sand.glints", Some(0.0))],
+    },
+    Precondition {
+        name: "long ripples seen from above",
+        prepare: |scene| {
+            dunes(scene);
+            (scene.camera.pitch_deg, scene.sand.ripple_length_m) = (-40.0, 2.0);
+        },
+        parameters: &[("sand.relief", None)],
     },
     Precondition {
         name: "a small field of dunes",
