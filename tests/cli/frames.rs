@@ -46,7 +46,7 @@ fn a_still_starts_from_a_state_as_the_volume_does() {
     place.run(&["simulate", "sky.toml", "--steps", "13", "-o", "s.npz"]).succeeded();
     render(&place, &["-o", "from.png", "--state", "s.npz"]).succeeded();
     render(&place, &["-o", "whole.png", "--set", "clouds.time_s=60"]).succeeded();
-    let pixels = |name: &str| image::open(place.path(name)).unwrap().to_rgb8();
+    let pixels = |name: &str| image::open(place.path(name)).expect("a picture").to_rgb8();
     assert!(pixels("from.png") == pixels("whole.png"), "the same picture");
 }
 
@@ -56,7 +56,7 @@ const SAND: &str = "format = 1\n[camera]\naltitude_m = 40\npitch_deg = -60\n[sky
 
 /// Pixels of a picture file.
 fn pixels(place: &Place, name: &str) -> image::RgbImage {
-    image::open(place.path(name)).unwrap().to_rgb8()
+    image::open(place.path(name)).expect("a picture").to_rgb8()
 }
 
 #[test]
