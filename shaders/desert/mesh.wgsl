@@ -10,7 +10,7 @@ fn desert_mesh(@builtin(global_invocation_id) id: vec3<u32>) {
     if (any(id.xy >= vec2<u32>(desert.columns, desert.rings))) { return; }
     let share = (f32(id.y) - 1.0) / f32(desert.rings - 2u);
     let outside = desert.centre_radius_m * pow(desert.far_radius_m / desert.centre_radius_m, share);
-    let radius = select(outside, 0.0, id.y == 0u);
+    let radius = select(outside, frame_centre_radius() * desert.centre_radius_m, id.y == 0u);
     let azimuth = desert.first_azimuth + f32(id.x) * desert.azimuth_step;
     let from_camera = radius * vec2<f32>(cos(azimuth), sin(azimuth));
     let spacing = max(radius * desert.azimuth_step, 0.02);

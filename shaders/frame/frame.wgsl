@@ -41,6 +41,12 @@ fn frame_plane(position: vec4<f32>) -> vec2<f32> {
     return vec2<f32>(unit.x, -unit.y);
 }
 
+/// Radius of the centre of a mesh around the camera, relative to its first ring. The nadir of a panorama is a whole row, over
+/// which each azimuth needs a vertex of its own.
+fn frame_centre_radius() -> f32 {
+    return select(0.0, 1e-3, frame.projection == FRAME_EQUIRECTANGULAR);
+}
+
 /// Width and height of a pixel in image-plane coordinates.
 fn frame_pixel_size() -> vec2<f32> {
     return 2.0 / vec2<f32>(frame.size_px);

@@ -8,7 +8,7 @@
 /// Radius (m) of a ring; ring 0 is the centre.
 fn mesh_radius(ring: f32) -> f32 {
     if (ring < 0.5) {
-        return 0.0;
+        return frame_centre_radius() * landscape.centre_radius_m;
     }
     let near_rings = f32(landscape.rings - landscape.far_rings);
     let near = landscape.centre_radius_m * pow(landscape.split_radius_m / landscape.centre_radius_m, (ring - 1.0) / (near_rings - 1.0));

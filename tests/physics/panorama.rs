@@ -95,6 +95,41 @@ fn a_panorama_shows_in_each_direction_what_a_camera_sees_there() {
 }
 
 #[test]
+fn the_ground_right_below_a_panorama_is_that_which_a_camera_sees_there() {
+    let mut studio = Studio::new();
+    let hills = [("landscape.kind", "hills"), ("ground.pattern", "plain")];
+    let sand = [
+        ("desert.kind", "dunes"),
+        ("desert.steps", "100"),
+        ("dunes.side", "64"),
+        ("sand.glints", "0"),
+        ("sand.relief", "false"),
+        ("camera.altitude_m", "20"),
+    ];
+    for changes in [&hills[..], &sand] {
+        let down = [("camera.heading_deg", "30"), ("camera.pitch_deg", "-80"), ("camera.field_of_view_deg", "50")];
+        let scene = scene("noon", &[&down[..], changes].concat());
+        let (size_px, seen_px) = ([1024, 512], glam::UVec2::splat(96));
+        let around = panorama(&mut studio, &scene, EnvironmentOptions { disc: false, ..options(size_px[0]) });
+        let seen = studio.radiance(&scene, seen_px.to_array());
+        let camera = CameraFrame::new(&scene.camera);
+        let mut errors: Vec<f64> = (0..96 * 96)
+            .map(|index| {
+                let pixel = DVec2::new(f64::from(index % 96) + 0.5, f64::from(index / 96) + 0.5);
+                let at = panorama_point_px(camera.ray(pixel, seen_px), size_px);
+                // Its left edge and its last row have no four pixels around them.
+                let at = [at[0].clamp(0.5, 1022.5), at[1].clamp(0.5, 510.5)];
+                (between(&around, at, size_px) / luminance(seen[index as usize]) - 1.0).abs()
+            })
+            .collect();
+        errors.sort_by(f64::total_cmp);
+        let [median, p98] = [errors.len() / 2, errors.len() * 98 / 100].map(|index| errors[index]);
+        println!("{}: median {:.2} %, 98th percentile {:.2} %", changes[0].0, 100.0 * median, 100.0 * p98);
+        assert!(median < 0.01 && p98 < 0.05, "{}: median {median}, p98 {p98}", changes[0].0);
+    }
+}
+
+#[test]
 fn a_panorama_from_a_cube_is_that_drawn_pixel_by_pixel() {
     let mut studio = Studio::new();
     let place = [("sun.elevation_deg", "20"), ("sun.azimuth_deg", "40"), ("sky.orders", "single")];
