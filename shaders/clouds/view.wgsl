@@ -43,7 +43,10 @@ fn cloud_lamp_irradiance(direction: vec3<f32>, t: f32, h: f32) -> Spectrum {
 /// Radiance (cd/m^2) of moonlit sky and ground around a cloud; of moonlight on the ground at sea level.
 fn cloud_moonlit(direction: vec3<f32>, t: f32, h: f32, light: CloudLight, below: f32) -> vec3<f32> {
     var radiance = vec3<f32>(0.0);
-    // A loop, as software adapters run both sides of a branch.
+    if (!NIGHT) {
+        return radiance;
+    }
+    // A loop, as lavapipe 22.3 fails in shaders that branch on several uniform buffers.
     for (var nights = moon.skylight; nights > 0u; nights--) { // loops: 1
         let mu = mu_along(atmosphere.planet_radius_m, sky_view.observer_altitude_m, moon.direction.z, dot(direction, moon.direction), t, h);
         let sky = ground_sky_irradiance(mu);

@@ -84,7 +84,7 @@ fn ground_fragment(@builtin(position) position: vec4<f32>) -> GroundFragment {
     let place = frame.position_m.xy + eye.xy + t * direction.xy;
     let shade = cloud_shade_at(place, 0.0);
     var light = ground_shaded(ground_sun_irradiance(mu_sun), ground_sky_irradiance(mu_sun), shade);
-    if (moon.skylight == 1u) {
+    if (NIGHT && moon.skylight == 1u) {
         let mu_moon = mu_along(radius, h, moon.direction.z, dot(direction, moon.direction), t, 0.0);
         light = spectrum_add(light, spectrum_mul(moon.light, ground_shaded(ground_sun_irradiance(mu_moon), ground_sky_irradiance(mu_moon), shade)));
     }

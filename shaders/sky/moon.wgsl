@@ -16,3 +16,6 @@ struct Moon {
     padding: u32,
 }
 @group(0) @binding(21) var<uniform> moon: Moon;
+
+/// Whether light of the night (moon, stars, airglow) is drawn at all: false in pipelines for frames that the day outshines.
+override NIGHT: bool = true;

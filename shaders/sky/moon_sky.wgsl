@@ -7,9 +7,11 @@
 /// Radiance (cd/m^2) of moonlit air in a direction.
 fn moon_sky_radiance(direction: vec3<f32>) -> vec3<f32> {
     var radiance = vec3<f32>(0.0);
-    // A loop, as software adapters run both sides of a branch.
-    for (var nights = moon.skylight; nights > 0u; nights--) { // loops: 1
-        radiance += moon_sky_lookup(direction);
+    if (NIGHT) {
+        // A loop, as lavapipe 22.3 fails in shaders that branch on several uniform buffers.
+        for (var nights = moon.skylight; nights > 0u; nights--) { // loops: 1
+            radiance += moon_sky_lookup(direction);
+        }
     }
     return radiance;
 }

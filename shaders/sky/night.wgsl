@@ -20,6 +20,9 @@ fn night_stars(plane: vec2<f32>, direction: vec3<f32>) -> vec3<f32> {
 
 /// Radiance (cd/m^2) of the night in a pixel that shows the sky.
 fn night_radiance(plane: vec2<f32>, direction: vec3<f32>) -> vec3<f32> {
+    if (!NIGHT) {
+        return vec3<f32>(0.0);
+    }
     var light = moon_sky_radiance(direction) + airglow_radiance(direction);
     let disc = moon_disc_radiance(plane);
     light += disc.xyz;

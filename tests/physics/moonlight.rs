@@ -100,3 +100,24 @@ fn a_moon_that_is_off_or_beside_a_high_sun_changes_no_pixel_but_its_disc() {
     let with = scene("noon", &[("camera.heading_deg", "90"), ("moon.position", "angles"), ("moon.azimuth_deg", "270")]);
     assert_eq!(studio.radiance(&plain, [32, 24]), studio.radiance(&with, [32, 24]), "the moon is behind the camera");
 }
+
+#[test]
+fn what_frames_by_day_leave_out_of_the_night_is_lost_in_the_day() {
+    let mut studio = Studio::new();
+    let day = [("sun.elevation_deg", "2.1"), ("sun.azimuth_deg", "180"), ("camera.heading_deg", "0")];
+    let moon = [("moon.position", "angles"), ("moon.azimuth_deg", "0"), ("moon.elevation_deg", "10")];
+    // A moon in the picture lets the whole night be drawn, a moon behind the camera none of it.
+    let [with, without] = ["0", "180"].map(|azimuth| {
+        let turned = [day, moon].concat().into_iter().chain([("moon.azimuth_deg", azimuth)]).collect::<Vec<_>>();
+        studio.radiance(&scene("noon", &turned), [96, 72])
+    });
+    let mut errors: Vec<f64> =
+        with.iter().zip(&without).map(|(night, day)| (luminance(*day) / luminance(*night) - 1.0).abs()).collect();
+    errors.sort_by(f64::total_cmp);
+    let on_disc = errors.iter().filter(|error| **error > 1e-3).count();
+    let worst = errors[errors.len() - 1 - on_disc];
+    println!("pixels of the disc: {on_disc}; the worst of the others is off by {worst:.1e}");
+    // The disc is less than a pixel wide.
+    assert!((1..=9).contains(&on_disc), "{on_disc} pixels of the moon's disc");
+    assert!(worst < 5e-4, "half a step of a half float: {worst:e}");
+}

@@ -24,6 +24,7 @@ pub mod film;
 pub mod flip;
 pub mod frame;
 pub mod landscape;
+mod night_forms;
 pub mod reference;
 mod renderer;
 pub mod sky;

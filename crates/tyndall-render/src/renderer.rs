@@ -106,7 +106,7 @@ impl Renderer {
         let model = scene.model();
         let uniforms = (AtmosphereUniform::new(&model, scene.sun.brightness)?, SkyView::new(scene, &model)?);
         let orders = OrdersRequest { model: &model, quality: orders_quality(scene), brightness: scene.sun.brightness };
-        self.tables.update_night(gpu, scene, &model, pixel_angle(&frame))?;
+        self.tables.update_night(gpu, scene, &model, (&frame, pixel_angle(&frame)))?;
         self.tables.update(gpu, &mut encoder, &mut self.timer, uniforms, &orders)?;
         let clouds = self.prepare_clouds(gpu, &mut encoder, scene, target)?;
         let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), &frame)?;
@@ -158,7 +158,7 @@ impl Renderer {
         if let Some(desert) = &desert {
             self.desert.draw(&mut pass, desert);
         }
-        self.sky.draw(&mut pass, &sky);
+        SkyRenderer::draw(&mut pass, &sky);
         Ok(())
     }
 

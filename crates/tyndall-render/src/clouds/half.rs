@@ -3,6 +3,7 @@
 use tyndall_gpu::wgpu::{self, TextureUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture, TextureDesc};
 
+use crate::night_forms::NightForms;
 use crate::{FrameTarget, RenderError, RendererConfig};
 
 /// Pixels along a side of a marched one.
@@ -11,39 +12,39 @@ const SCALE: u32 = 2;
 /// The two pipelines and the clouds between them.
 #[derive(Debug)]
 pub(super) struct HalfClouds {
-    march: RenderPipeline,
+    march: NightForms,
     over: RenderPipeline,
     part: Option<Texture>,
 }
 
 impl HalfClouds {
-    pub(super) fn new(gpu: &Gpu, march: &Shader, config: RendererConfig) -> Result<Self, RenderError> {
-        let scale = [("CLOUD_PIXEL", f64::from(SCALE))];
-        let desc = RenderPipelineDesc {
+    pub(super) fn new(gpu: &Gpu, config: RendererConfig) -> Result<Self, RenderError> {
+        let march = RenderPipelineDesc {
             label: "clouds at half resolution",
             vertex: "cloud_vertex",
             fragment: "cloud_part_fragment",
-            targets: &[config.frame_format().into()],
+            targets: &[],
             depth: None,
             primitive: wgpu::PrimitiveState::default(),
-            constants: &scale,
+            constants: &[("CLOUD_PIXEL", SCALE as f64)],
         };
         let over = RenderPipelineDesc {
             label: "clouds over the frame",
             vertex: "upsample_vertex",
             fragment: "upsample_fragment",
-            ..desc.clone()
+            targets: &[config.frame_format().into()],
+            ..march.clone()
         };
         Ok(Self {
-            march: RenderPipeline::new(gpu, march, &desc)?,
+            march: NightForms::new(gpu, Shader::load(gpu, "clouds/view.wgsl")?, march, config.frame_format())?,
             over: RenderPipeline::new(gpu, &Shader::load(gpu, "clouds/upsample.wgsl")?, &over)?,
             part: None,
         })
     }
 
     /// The pipeline that marches.
-    pub(super) fn march(&self) -> &RenderPipeline {
-        &self.march
+    pub(super) fn march(&mut self) -> &mut NightForms {
+        &mut self.march
     }
 
     /// Binds what is laid over the frame.
@@ -76,15 +77,15 @@ impl HalfClouds {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timer: &mut PassTimer,
-        (march, over): (&[wgpu::BindGroup], &wgpu::BindGroup),
+        (pipeline, march, over): (&wgpu::RenderPipeline, &[wgpu::BindGroup], &wgpu::BindGroup),
         target: &FrameTarget,
     ) {
         let Some(part) = &self.part else { return };
         // Where no cloud is, the march leaves what is there: nothing, and full transmittance.
         let clear = wgpu::LoadOp::Clear(wgpu::Color::BLACK);
         let passes = [
-            ("clouds", &self.march, (part, clear), (0, march)),
-            ("clouds over", &self.over, (&target.frame, wgpu::LoadOp::Load), (1, std::slice::from_ref(over))),
+            ("clouds", pipeline, (part, clear), (0, march)),
+            ("clouds over", self.over.raw(), (&target.frame, wgpu::LoadOp::Load), (1, std::slice::from_ref(over))),
         ];
         for (label, pipeline, (texture, load), (first, groups)) in passes {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -98,7 +99,7 @@ impl HalfClouds {
                 timestamp_writes: timer.render_writes(label),
                 ..Default::default()
             });
-            pass.set_pipeline(pipeline.raw());
+            pass.set_pipeline(pipeline);
             for (index, group) in (first..).zip(groups) {
                 pass.set_bind_group(index, group, &[]);
             }

@@ -31,9 +31,10 @@ pub use report::{CloudReport, CloudTimes};
 use tyndall_clouds::floor_shadow::optical_depth;
 use tyndall_core::array::NamedArrays;
 use tyndall_gpu::wgpu::{self, BufferUsages, TextureUsages};
-use tyndall_gpu::{Buffer, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture, TextureDesc};
+use tyndall_gpu::{Buffer, Gpu, PassTimer, RenderPipelineDesc, Shader, Texture, TextureDesc};
 use tyndall_scene::{CloudMethod, CloudResolution, Scene};
 
+use crate::night_forms::NightForms;
 use crate::sky::{SkyLightReach, SkyLightTable, SkyTables, TableBuilding};
 use crate::splats::SplatRasteriser;
 use crate::{FrameTarget, RenderError, RendererConfig, View};
@@ -48,7 +49,7 @@ use volume::CloudVolume;
 /// The pipeline, the simulation and its textures.
 #[derive(Debug)]
 pub struct CloudRenderer {
-    pipeline: RenderPipeline,
+    pipeline: NightForms,
     half: HalfClouds,
     uniform: Buffer,
     sampler: wgpu::Sampler,
@@ -68,6 +69,7 @@ pub struct CloudRenderer {
 #[derive(Debug)]
 pub struct CloudDrawData {
     method: CloudMethod,
+    pipeline: wgpu::RenderPipeline,
     bindings: [wgpu::BindGroup; 4],
     /// What lays clouds of half resolution over the frame.
     over: Option<wgpu::BindGroup>,
@@ -89,19 +91,16 @@ impl CloudRenderer {
     /// When the shader is wrong or memory does not suffice.
     pub fn new(gpu: &Gpu, config: RendererConfig) -> Result<Self, RenderError> {
         let shader = Shader::load(gpu, "clouds/view.wgsl")?;
-        let pipeline = RenderPipeline::new(
-            gpu,
-            &shader,
-            &RenderPipelineDesc {
-                label: "clouds",
-                vertex: "cloud_vertex",
-                fragment: "cloud_fragment",
-                targets: &[config.frame_format().into()],
-                depth: None,
-                primitive: wgpu::PrimitiveState::default(),
-                constants: &[],
-            },
-        )?;
+        let desc = RenderPipelineDesc {
+            label: "clouds",
+            vertex: "cloud_vertex",
+            fragment: "cloud_fragment",
+            targets: &[],
+            depth: None,
+            primitive: wgpu::PrimitiveState::default(),
+            constants: &[],
+        };
+        let pipeline = NightForms::new(gpu, shader, desc, config.frame_format())?;
         let bytes = size_of::<Clouds>() as u64;
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("clouds"),
@@ -123,7 +122,7 @@ impl CloudRenderer {
         });
         Ok(Self {
             pipeline,
-            half: HalfClouds::new(gpu, &shader, config)?,
+            half: HalfClouds::new(gpu, config)?,
             billows: None,
             billow_sampler,
             uniform: gpu.buffer("clouds", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
@@ -212,7 +211,8 @@ impl CloudRenderer {
                 ("cloud_sampler", wgpu::BindingResource::Sampler(&self.sampler)),
                 ("cloud_skips", textures.skips.as_binding()),
             ]);
-            if halves { self.half.march() } else { &self.pipeline }
+            let forms = if halves { self.half.march() } else { &mut self.pipeline };
+            forms.form(gpu, tables.is_night_drawn())?
         };
         let frame = [("frame", surroundings.frame.as_entire_binding())];
         let bindings = [
@@ -221,7 +221,7 @@ impl CloudRenderer {
             pipeline.bind(gpu, 2, &own)?,
             pipeline.bind(gpu, 3, &shade)?,
         ];
-        Ok(Some(CloudDrawData { method, bindings, over }))
+        Ok(Some(CloudDrawData { method, pipeline: pipeline.raw().clone(), bindings, over }))
     }
 
     /// What `clouds/shadow.wgsl` needs, by the names of its variables: what the clouds of the last scene that was prepared
@@ -280,7 +280,7 @@ impl CloudRenderer {
         let Some(behind) = &self.behind else { return };
         encoder.copy_texture_to_texture(target.frame.as_image_copy(), behind.as_image_copy(), behind.size());
         if let Some(over) = &data.over {
-            self.half.record(encoder, timer, (&data.bindings, over), target);
+            self.half.record(encoder, timer, (&data.pipeline, &data.bindings, over), target);
             return;
         }
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -294,8 +294,7 @@ impl CloudRenderer {
             timestamp_writes: timer.render_writes("clouds"),
             ..Default::default()
         });
-        let pipeline = if data.method == CloudMethod::Splats { self.splats.pipeline() } else { &self.pipeline };
-        pass.set_pipeline(pipeline.raw());
+        pass.set_pipeline(&data.pipeline);
         for (index, group) in (0..).zip(&data.bindings) {
             pass.set_bind_group(index, group, &[]);
         }

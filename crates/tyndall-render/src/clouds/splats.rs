@@ -34,11 +34,6 @@ impl CloudSplats {
         Ok(Self { pipeline, renderer: SplatRenderer::new(gpu)? })
     }
 
-    /// The pipeline that lays splats over the frame.
-    pub(super) fn pipeline(&self) -> &RenderPipeline {
-        &self.pipeline
-    }
-
     /// Who draws the billboards, to be chosen.
     pub(super) fn renderer_mut(&mut self) -> &mut SplatRenderer {
         &mut self.renderer

@@ -1,30 +1,31 @@
 //! Drawing the ground and the sky into the frame.
 
 use tyndall_gpu::wgpu;
-use tyndall_gpu::{Buffer, Gpu, RenderPipeline, RenderPipelineDesc, Shader};
+use tyndall_gpu::{Buffer, Gpu, RenderPipelineDesc, Shader};
 use tyndall_scattering::dome::Dome;
 use tyndall_scene::SkyMode;
 
 use super::tables::SkyTables;
 use crate::clouds::CloudRenderer;
+use crate::night_forms::NightForms;
 use crate::target::DEPTH_FORMAT;
 use crate::{RenderError, RendererConfig};
 
 /// Pipelines of the ground, the sky per pixel and the sky on a dome.
 #[derive(Debug)]
 pub struct SkyRenderer {
-    ground: RenderPipeline,
-    per_pixel: RenderPipeline,
-    dome: RenderPipeline,
+    ground: NightForms,
+    per_pixel: NightForms,
+    dome: NightForms,
 }
 
 /// Bind groups of one frame.
 #[derive(Debug)]
 pub struct SkyDrawData {
-    ground: [wgpu::BindGroup; 2],
+    ground: (wgpu::RenderPipeline, [wgpu::BindGroup; 2]),
     /// What clouds leave of the ground's light.
     shade: wgpu::BindGroup,
-    sky: [wgpu::BindGroup; 2],
+    sky: (wgpu::RenderPipeline, [wgpu::BindGroup; 2]),
     /// The dome's mesh, or `None` for the sky per pixel.
     dome: Option<Dome>,
 }
@@ -35,8 +36,8 @@ impl SkyRenderer {
     /// # Errors
     /// When a shader is wrong.
     pub fn new(gpu: &Gpu, config: RendererConfig) -> Result<Self, RenderError> {
-        let pipeline = |name: &str, writes_depth: bool| {
-            let shader = Shader::load(gpu, &format!("sky/{name}.wgsl"))?;
+        let pipeline = |[label, vertex, fragment]: [&'static str; 3], writes_depth: bool| {
+            let shader = Shader::load(gpu, &format!("sky/{label}.wgsl"))?;
             let depth = wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(writes_depth),
@@ -45,24 +46,21 @@ impl SkyRenderer {
                 stencil: wgpu::StencilState::default(),
                 bias: wgpu::DepthBiasState::default(),
             };
-            RenderPipeline::new(
-                gpu,
-                &shader,
-                &RenderPipelineDesc {
-                    label: name,
-                    vertex: &format!("{name}_vertex"),
-                    fragment: &format!("{name}_fragment"),
-                    targets: &[config.frame_format().into()],
-                    depth: Some(depth),
-                    primitive: wgpu::PrimitiveState::default(),
-                    constants: &[],
-                },
-            )
+            let desc = RenderPipelineDesc {
+                label,
+                vertex,
+                fragment,
+                targets: &[],
+                depth: Some(depth),
+                primitive: wgpu::PrimitiveState::default(),
+                constants: &[],
+            };
+            NightForms::new(gpu, shader, desc, config.frame_format())
         };
         Ok(Self {
-            ground: pipeline("ground", true)?,
-            per_pixel: pipeline("sky", false)?,
-            dome: pipeline("dome", false)?,
+            ground: pipeline(["ground", "ground_vertex", "ground_fragment"], true)?,
+            per_pixel: pipeline(["sky", "sky_vertex", "sky_fragment"], false)?,
+            dome: pipeline(["dome", "dome_vertex", "dome_fragment"], false)?,
         })
     }
 
@@ -71,45 +69,41 @@ impl SkyRenderer {
     /// # Errors
     /// When a table does not fit the shaders.
     pub fn prepare(
-        &self,
+        &mut self,
         gpu: &Gpu,
         (tables, clouds): (&SkyTables, &CloudRenderer),
         frame: &Buffer,
         (mode, dome): (SkyMode, Dome),
     ) -> Result<SkyDrawData, RenderError> {
         let common = tables.view_bindings();
+        let is_night = tables.is_night_drawn();
+        let ground = self.ground.form(gpu, is_night)?;
         let sky = match mode {
-            SkyMode::PerPixel => &self.per_pixel,
-            SkyMode::VertexDome => &self.dome,
+            SkyMode::PerPixel => &mut self.per_pixel,
+            SkyMode::VertexDome => &mut self.dome,
         };
+        let sky = sky.form(gpu, is_night)?;
         let with_night = [&common[..], &tables.night.sky_bindings()].concat();
         let mut with_irradiance = [&common[..], &tables.night.ground_bindings()].concat();
         with_irradiance.push(("irradiance_table", tables.irradiance.as_binding()));
         let frame = [("frame", frame.as_entire_binding())];
         Ok(SkyDrawData {
-            ground: [self.ground.bind(gpu, 0, &with_irradiance)?, self.ground.bind(gpu, 1, &frame)?],
-            shade: self.ground.bind(gpu, 3, &clouds.shadow_bindings())?,
-            sky: [sky.bind(gpu, 0, &with_night)?, sky.bind(gpu, 1, &frame)?],
+            ground: (ground.raw().clone(), [ground.bind(gpu, 0, &with_irradiance)?, ground.bind(gpu, 1, &frame)?]),
+            shade: ground.bind(gpu, 3, &clouds.shadow_bindings())?,
+            sky: (sky.raw().clone(), [sky.bind(gpu, 0, &with_night)?, sky.bind(gpu, 1, &frame)?]),
             dome: (mode == SkyMode::VertexDome).then_some(dome),
         })
     }
 
     /// Draws the ground, then the sky where nothing else is.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, data: &SkyDrawData) {
-        let draw = |pass: &mut wgpu::RenderPass<'_>,
-                    pipeline: &RenderPipeline,
-                    bindings: &[wgpu::BindGroup; 2],
-                    vertices: u32| {
-            pass.set_pipeline(pipeline.raw());
+    pub fn draw(pass: &mut wgpu::RenderPass<'_>, data: &SkyDrawData) {
+        pass.set_bind_group(3, &data.shade, &[]);
+        let sky_vertices = data.dome.map_or(3, Dome::vertex_count);
+        for ((pipeline, bindings), vertices) in [(&data.ground, 3), (&data.sky, sky_vertices)] {
+            pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &bindings[0], &[]);
             pass.set_bind_group(1, &bindings[1], &[]);
             pass.draw(0..vertices, 0..1);
-        };
-        pass.set_bind_group(3, &data.shade, &[]);
-        draw(pass, &self.ground, &data.ground, 3);
-        match data.dome {
-            Some(dome) => draw(pass, &self.dome, &data.sky, dome.vertex_count()),
-            None => draw(pass, &self.per_pixel, &data.sky, 3),
         }
     }
 }

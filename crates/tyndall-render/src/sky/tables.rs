@@ -16,6 +16,7 @@ use super::gpu_data::{Atmosphere, SkyView};
 use super::night::Night;
 use super::orders::{OrdersRequest, OrdersTable};
 use crate::RenderError;
+use crate::frame::gpu_data::Frame;
 
 /// What the column and irradiance tables follow from.
 type Inputs = (Atmosphere, Option<OrdersQuality>);
@@ -78,12 +79,23 @@ impl SkyTables {
         })
     }
 
-    /// Uploads what the sky of the night follows from; `pixel_rad` is the width of a pixel.
+    /// Uploads what the sky of the night follows from, for a frame whose pixels are `pixel_rad` wide.
     ///
     /// # Errors
     /// When the scene's values do not fit together or memory does not suffice.
-    pub fn update_night(&mut self, gpu: &Gpu, scene: &Scene, model: &Model, pixel_rad: f64) -> Result<(), RenderError> {
-        self.night.update(gpu, scene, model, pixel_rad)
+    pub fn update_night(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        model: &Model,
+        frame: (&Frame, f64),
+    ) -> Result<(), RenderError> {
+        self.night.update(gpu, scene, model, frame)
+    }
+
+    /// Whether light of the night shows in the frame of the last [`SkyTables::update_night`].
+    pub(crate) fn is_night_drawn(&self) -> bool {
+        self.night.is_drawn()
     }
 
     /// Uploads the uniforms and records the filling of the tables whose inputs changed.

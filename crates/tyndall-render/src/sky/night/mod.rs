@@ -19,6 +19,12 @@ use refraction::RefractionUniform;
 use stars::StarField;
 
 use crate::RenderError;
+use crate::frame::gpu_data::Frame;
+
+/// Elevation of the sun (rad) above which the brightest star is lost even in the finest picture's zenith, and the altitude
+/// (m) above which the sky is dark by day.
+const DAY_ELEVATION: f64 = 0.035;
+const DARK_ABOVE_M: f64 = 15_000.0;
 
 /// Uniform structs of this folder.
 pub mod gpu_data {
@@ -35,6 +41,7 @@ pub struct Night {
     pub(super) moon: MoonLight,
     stars: StarField,
     airglow: Buffer,
+    is_drawn: bool,
 }
 
 impl Night {
@@ -48,20 +55,35 @@ impl Night {
             moon: MoonLight::new(gpu)?,
             stars: StarField::new(gpu)?,
             airglow: airglow::uniform(gpu)?,
+            is_drawn: true,
         })
     }
 
-    /// Uploads what a scene changes; `pixel_rad` is the width of a pixel.
+    /// Uploads what a scene changes for a frame whose pixels are `pixel_rad` wide.
     ///
     /// # Errors
     /// When the scene's values do not fit together or memory does not suffice.
-    pub fn update(&mut self, gpu: &Gpu, scene: &Scene, model: &Model, pixel_rad: f64) -> Result<(), RenderError> {
+    pub fn update(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        model: &Model,
+        (frame, pixel_rad): (&Frame, f64),
+    ) -> Result<(), RenderError> {
+        let is_day = scene.sun_direction()?.elevation_rad > DAY_ELEVATION && scene.sun.brightness > 0.0;
+        let is_dark = !is_day || scene.camera.altitude_m > DARK_ABOVE_M;
         self.refraction.update(gpu, scene, model.planet_radius_m);
-        self.moon.update(gpu, scene, model)?;
-        self.stars.update(gpu, scene, pixel_rad)?;
+        let has_moon = self.moon.update(gpu, scene, (model, frame))?;
+        self.is_drawn = is_dark || has_moon;
+        self.stars.update(gpu, scene, (is_dark, pixel_rad))?;
         let airglow = gpu_data::Airglow::new(scene.stars.airglow_cd_m2);
         gpu.queue.write_buffer(&self.airglow, 0, bytemuck::bytes_of(&airglow));
         Ok(())
+    }
+
+    /// Whether any light of the night shows in the frame: never by day near the ground, but for the moon.
+    pub(super) fn is_drawn(&self) -> bool {
+        self.is_drawn
     }
 
     /// Resources of the shaders that see moonlit air, by their names.

@@ -13,6 +13,7 @@ use tyndall_scene::astronomy::{FULL_MOON_LUX, MoonState, lommel_seeliger_phase, 
 
 use super::colour::with_luminance;
 use crate::RenderError;
+use crate::frame::gpu_data::Frame;
 use crate::sky::gpu_data::{Atmosphere, SkyView};
 
 /// The moon reflects red better than blue: its colour index is 0.27 magnitudes above the sun's (Lane and Irvine 1973).
@@ -28,6 +29,9 @@ const DARK_LUX: f64 = 1e-7;
 /// twilight is over.
 const DAY_SINE: f64 = 0.07;
 const MOONSET_SINE: f64 = -0.21;
+
+/// The air lifts what stands on the horizon by less than this (rad).
+const REFRACTION_MAX_RAD: f32 = 0.03;
 
 /// Columns of the moon's table for one of the sun's.
 const COLUMNS_PER_COLUMN: u32 = 2;
@@ -126,8 +130,13 @@ impl MoonLight {
         })
     }
 
-    /// Uploads the moon of a scene.
-    pub(super) fn update(&mut self, gpu: &Gpu, scene: &Scene, model: &Model) -> Result<(), RenderError> {
+    /// Uploads the moon of a scene; gives back whether its disc or its light is drawn in a frame.
+    pub(super) fn update(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        (model, frame): (&Model, &Frame),
+    ) -> Result<bool, RenderError> {
         let sun_sine = scene.sun_direction()?.elevation_rad.sin();
         let moon = scene.moon()?.map(|state| gpu_data::Moon::new(scene, &state, sun_sine));
         let moon = moon.unwrap_or(bytemuck::Zeroable::zeroed());
@@ -148,7 +157,7 @@ impl MoonLight {
             let table_size = [view.table_size[0] * COLUMNS_PER_COLUMN, view.table_size[1]];
             self.wanted = Some((atmosphere, SkyView { sun_direction, table_size, ..view }));
         }
-        Ok(())
+        Ok(moon.skylight == 1 || (moon.disc == 1 && may_show(frame, moon.direction, moon.angular_radius)))
     }
 
     /// Records the filling of the table, when it is needed and its inputs changed: `shared` are the table of columns, and
@@ -194,6 +203,13 @@ impl MoonLight {
     pub(in crate::sky) fn invalidate(&mut self) {
         self.holds = None;
     }
+}
+
+/// Whether a disc around a direction may lie in a picture, the air's refraction included.
+fn may_show(frame: &Frame, direction: [f32; 3], radius_rad: f32) -> bool {
+    let diagonal = frame.tan_half_width.hypot(frame.tan_half_height).atan();
+    let cosine: f32 = frame.forward.iter().zip(direction).map(|(forward, towards)| forward * towards).sum();
+    frame.projection != 0 || cosine > (diagonal + radius_rad + REFRACTION_MAX_RAD).cos()
 }
 
 fn table(gpu: &Gpu, size_px: [u32; 2]) -> Result<Texture, RenderError> {

@@ -9,11 +9,6 @@ use super::colour::white;
 use super::star_lists::{grid_for, star_lists};
 use crate::RenderError;
 
-/// Elevation of the sun (rad) above which the brightest star is lost even in the finest picture's zenith, and the altitude
-/// (m) above which the sky is dark by day.
-const DAY_ELEVATION: f64 = 0.035;
-const DARK_ABOVE_M: f64 = 15_000.0;
-
 /// Uniform structs of this file.
 pub(super) mod gpu_data {
     /// Twin of `Stars` in `shaders/sky/stars.wgsl`; units and meanings there.
@@ -79,11 +74,14 @@ impl StarField {
         })
     }
 
-    /// Uploads the stars of a scene for pixels of this width (rad).
-    pub(super) fn update(&mut self, gpu: &Gpu, scene: &Scene, pixel_rad: f64) -> Result<(), RenderError> {
-        let is_day = scene.sun_direction()?.elevation_rad > DAY_ELEVATION && scene.sun.brightness > 0.0;
-        let seen = scene.stars.visible && (!is_day || scene.camera.altitude_m > DARK_ABOVE_M);
-        let grid = if seen { grid_for(pixel_rad) } else { 0 };
+    /// Uploads the stars of a scene for pixels of this width (rad); none when the sky is too bright for them.
+    pub(super) fn update(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        (is_dark, pixel_rad): (bool, f64),
+    ) -> Result<(), RenderError> {
+        let grid = if scene.stars.visible && is_dark { grid_for(pixel_rad) } else { 0 };
         let uniform = gpu_data::Stars::new(scene, grid)?;
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         if grid == 0 || grid == self.grid {
