@@ -8,6 +8,7 @@
 //! - [`presets`]: deserts to start from.
 //! - [`shadow`], [`horizon`]: where the wind and where the sun does not reach.
 //! - [`smooth`]: the surface of even slopes and creases that slabs stand for.
+//! - [`blowing`]: sand in the air over crests.
 //! - [`blur`], [`openness`], [`sunlight`]: a bed as light sees it.
 //! - [`brush`], [`terrain`], [`export`]: sand by hand, bedrock from outside, maps and tiles for other programs.
 //!
@@ -23,6 +24,7 @@
     reason = "integers are the matter of this crate: sides are below 2^13, beds below 2^26 cells, and parameters are checked against ranges that keep every product within 32 bits"
 )]
 
+pub mod blowing;
 pub mod blur;
 pub mod brush;
 pub mod crest_theory;
