@@ -32,6 +32,8 @@ pub const FILES: &[(&str, &str)] = wgsl![
     "common/sphere.wgsl",
     "common/tone.wgsl",
     "desert/bed.wgsl",
+    "desert/blowing.wgsl",
+    "desert/blowing_view.wgsl",
     "desert/desert.wgsl",
     "desert/dunes.wgsl",
     "desert/glints.wgsl",

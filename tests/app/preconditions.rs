@@ -329,6 +329,14 @@ pub(crate) const ALL: &[Precondition] = &[
         parameters: &[("sand.relief", None)],
     },
     Precondition {
+        name: "a storm over dunes",
+        prepare: |scene| {
+            dunes(scene);
+            scene.sand.wind_m_s = 16.0;
+        },
+        parameters: &[("sand.wind_m_s", Some(8.0)), ("sand.wind_time_s", Some(3.0))],
+    },
+    Precondition {
         name: "a small field of dunes",
         prepare: dunes,
         parameters: &[

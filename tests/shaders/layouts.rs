@@ -8,7 +8,7 @@ use tyndall_gpu::rust_layout;
 use tyndall_gpu_sim::gpu_data::{Dunes, Ripples, Sand, SandPass};
 use tyndall_render::aerial::gpu_data::Aerial;
 use tyndall_render::clouds::gpu_data::{CloudShadow, Clouds};
-use tyndall_render::desert::gpu_data::Desert;
+use tyndall_render::desert::gpu_data::{Blowing, Desert};
 use tyndall_render::frame::gpu_data::Frame;
 use tyndall_render::landscape::gpu_data::Landscape;
 use tyndall_render::sky::gpu_data::{Atmosphere, Orders, SkyLight, SkyView};
@@ -56,6 +56,7 @@ fn twins() -> Vec<(&'static str, StructLayout)> {
         ("Aerial", rust_layout!(Aerial { columns, rows, far_m, unit })),
         clouds(),
         cloud_shadow(),
+        blowing(),
         desert(),
         dunes(),
         landscape(),
@@ -185,6 +186,11 @@ fn cloud_shadow() -> (&'static str, StructLayout) {
             padding,
         }),
     )
+}
+
+/// Twin of `Blowing`.
+fn blowing() -> (&'static str, StructLayout) {
+    ("Blowing", rust_layout!(Blowing { albedo, base_m, along, travelled_m, top_m, floor_m, streaks_a_metre, padding }))
 }
 
 /// Twin of `Desert`.

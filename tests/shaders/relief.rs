@@ -104,7 +104,8 @@ fn uniform(relief: f64) -> Desert {
     }
 }
 
-fn texture(gpu: &Gpu, format: wgpu::TextureFormat, side: u32, halves: &[u16]) -> wgpu::TextureView {
+/// A square texture of half floats.
+pub(crate) fn texture(gpu: &Gpu, format: wgpu::TextureFormat, side: u32, halves: &[u16]) -> wgpu::TextureView {
     let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 };
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("test"),

@@ -35,6 +35,7 @@ pub(crate) fn no_effect(scene: &Scene, group: &str, name: &str) -> Option<&'stat
         ("sand", "relief") if scene.sand.ripples != RippleLook::Best => {
             Some("Ripples are absent or normals alone; set Ripples to best.")
         }
+        ("sand", "wind_time_s") if scene.sand.wind_m_s <= 0.0 => Some("No wind blows sand; raise Wind."),
         ("desert", name) => desert(scene, group, name),
         ("dune_wind", name) => desert(scene, group, name).or_else(|| dunes(scene, group, name)),
         ("dunes" | "dune_classic" | "dune_plants" | "dune_rock", name) => dunes(scene, group, name),

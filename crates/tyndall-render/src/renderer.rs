@@ -22,8 +22,8 @@ use crate::sky::{OrdersRequest, SkyLightTable, SkyRenderer, SkyTables, TableBuil
 use crate::splats::SplatRasteriser;
 use crate::{FrameTarget, RenderError, RendererConfig, View};
 
-/// Passes that a frame can have: five tables, light on surfaces and clouds, the air, three of the landscape, the desert's mesh, scene, clouds, meter, development.
-const TIMED_PASSES: u32 = 18;
+/// Passes that a frame can have: five tables, light on surfaces and clouds, the air, three of the landscape, the desert's mesh, scene, blowing sand, clouds, meter, development.
+const TIMED_PASSES: u32 = 19;
 
 /// Draws scenes. All pipelines are made at once, so that a wrong shader shows at the start.
 #[derive(Debug)]
@@ -111,7 +111,10 @@ impl Renderer {
         let clouds = self.prepare_clouds(gpu, &mut encoder, scene, target)?;
         let landscape = self.prepare_landscape(gpu, &mut encoder, (scene, view), &frame)?;
         let desert = self.prepare_desert(gpu, &mut encoder, (scene, view), &frame)?;
-        self.record_scene(gpu, &mut encoder, (scene, landscape, desert), target)?;
+        self.record_scene(gpu, &mut encoder, (scene, landscape, desert.as_ref()), target)?;
+        if let Some(desert) = &desert {
+            self.desert.record_blowing(gpu, (&mut encoder, &mut self.timer), desert, target)?;
+        }
         if let Some(clouds) = &clouds {
             let recording = (&mut encoder, &mut self.timer);
             self.clouds.draw_splats(gpu, recording, (clouds, scene, view), target)?;
@@ -131,7 +134,7 @@ impl Renderer {
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        (scene, landscape, desert): (&Scene, Option<LandscapeDrawData>, Option<DesertDrawData>),
+        (scene, landscape, desert): (&Scene, Option<LandscapeDrawData>, Option<&DesertDrawData>),
         target: &FrameTarget,
     ) -> Result<(), RenderError> {
         let dome = Dome { rings: scene.sky.dome_rings, segments: scene.sky.dome_segments };
@@ -155,7 +158,7 @@ impl Renderer {
         if let Some(landscape) = &landscape {
             self.landscape.draw(&mut pass, landscape);
         }
-        if let Some(desert) = &desert {
+        if let Some(desert) = desert {
             self.desert.draw(&mut pass, desert);
         }
         SkyRenderer::draw(&mut pass, &sky);

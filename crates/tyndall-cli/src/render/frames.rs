@@ -112,6 +112,7 @@ pub fn scene_of_frame(scene: &Scene, frame: u32, pace: Pace) -> Result<Scene, Fa
         // Thirds and the like must not lose a step to rounding.
         let steps = (later(pace.sand_speed) + 1e-6).floor();
         scene.set("desert.steps", f64::from(scene.desert.steps) + steps)?;
+        scene.set("sand.wind_time_s", scene.sand.wind_time_s + later(1.0))?;
     }
     Ok(scene)
 }
@@ -158,6 +159,8 @@ mod tests {
         scene.desert.steps = 7;
         let steps = [1, 2, 3, 36].map(|frame| scene_of_frame(&scene, frame, pace).unwrap().desert.steps);
         assert_eq!(steps, [8, 9, 10, 52], "30 steps in 24 frames, whole ones");
+        let blown_s = scene_of_frame(&scene, 36, pace).unwrap().sand.wind_time_s;
+        assert!((blown_s - 1.5).abs() < 1e-9, "streaks of blowing sand keep real time: {blown_s} s");
         let failure = scene_of_frame(&scene, 999_999, Pace { fps: 1.0, ..pace }).expect_err("beyond the range");
         assert!(failure.to_string().contains("`clouds.time_s` = 59999970 s is outside 0 to 100000 s"), "{failure}");
     }

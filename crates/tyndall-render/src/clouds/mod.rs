@@ -303,7 +303,7 @@ impl CloudRenderer {
 }
 
 /// A texture like the target's frame.
-fn copy_of_frame<'a>(
+pub(crate) fn copy_of_frame<'a>(
     gpu: &Gpu,
     held: &'a mut Option<Texture>,
     target: &FrameTarget,
@@ -313,7 +313,7 @@ fn copy_of_frame<'a>(
         texture
     } else {
         let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-        gpu.texture(&TextureDesc::new_2d("frame without clouds", target.size_px(), target.frame.format(), usage))?
+        gpu.texture(&TextureDesc::new_2d("frame so far", target.size_px(), target.frame.format(), usage))?
     };
     Ok(held.insert(texture))
 }

@@ -33,6 +33,8 @@ pub struct Bed {
     pub openness: Vec<f32>,
     /// For each cell: direction of ripples times their height (east, north), their scale, cover of sand.
     pub ripples: Vec<[f32; 4]>,
+    /// Where the wind of the next step blows to, anticlockwise from east (deg).
+    pub wind_toward_deg: f64,
 }
 
 impl Bed {
@@ -72,6 +74,7 @@ impl Bed {
             heights,
             cell_m,
             edges,
+            wind_toward_deg: simulation.wind_toward_deg(),
         })
     }
 
@@ -117,6 +120,14 @@ impl Bed {
         let away = |count: usize, at_m: f64| (0.5 * count as f64 - (at_m / self.cell_m).abs()) / 8.0;
         let share = away(nx, x_m).min(away(ny, y_m)).clamp(0.0, 1.0);
         if self.edges == Edges::Periodic { 1.0 } else { share * share * (3.0 - 2.0 * share) }
+    }
+
+    /// The same at a cell.
+    #[expect(clippy::cast_possible_truncation, reason = "textures hold less than f32")]
+    pub(super) fn inside_cell(&self, index: usize) -> f32 {
+        let [nx, ny] = self.heights.size();
+        let at_m = |at: usize, count: usize| self.cell_m * (at as f64 + 0.5 - 0.5 * count as f64);
+        self.inside(at_m(index % nx, nx), at_m(index / nx, ny)) as f32
     }
 
     /// Mip levels of the heights (m), the finest first; each texel the weighted mean of 4 x 4 finer ones.

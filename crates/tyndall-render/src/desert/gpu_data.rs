@@ -1,5 +1,6 @@
 //! The desert's uniform and how it follows from a scene.
 
+use tyndall_dunes::blowing::GRAIN_SPEED;
 use tyndall_scene::{RippleLook, SandParams, Scene};
 
 use super::mesh::DesertMesh;
@@ -87,6 +88,54 @@ impl Desert {
 fn relief(sand: &SandParams, tile: TileScale) -> f32 {
     let has_relief = sand.relief && sand.ripples == RippleLook::Best && tile.texels > 0;
     if has_relief { (tile.height / tile.texels as f64 * TILE_INDEX / sand.ripple_index) as f32 } else { 0.0 }
+}
+
+/// Twin of `Blowing` in `shaders/desert/blowing.wgsl`; units and meanings there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "documented at the WGSL twin")]
+pub struct Blowing {
+    pub albedo: [f32; 3],
+    pub base_m: f32,
+    pub along: [f32; 2],
+    pub travelled_m: f32,
+    pub top_m: f32,
+    pub floor_m: f32,
+    pub streaks_a_metre: f32,
+    pub padding: [f32; 2],
+}
+
+/// Side (m) of the tile of streaks across the wind.
+const STREAKS_M: f64 = 40.0;
+
+impl Blowing {
+    /// From a scene whose wind blows to `toward_deg`, with the level (m) that heights of columns count from, the highest sand in
+    /// the air and the lowest place of the bed.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
+    pub fn new(scene: &Scene, toward_deg: f64, [base_m, top_m, floor_m]: [f32; 3]) -> Self {
+        let sand = &scene.sand;
+        let (sin, cos) = toward_deg.to_radians().sin_cos();
+        let way_m = GRAIN_SPEED * sand.wind_m_s * sand.wind_time_s;
+        Self {
+            albedo: [sand.red, sand.green, sand.blue].map(|albedo| grain_albedo(albedo) as f32),
+            base_m,
+            along: [cos, sin].map(|part| part as f32),
+            travelled_m: way_m as f32,
+            top_m,
+            floor_m,
+            streaks_a_metre: (1.0 / STREAKS_M) as f32,
+            padding: [0.0; 2],
+        }
+    }
+}
+
+/// Share of light that single grains scatter, whose heap reflects a share of it: Hapke 1981, in which a heap of grains that
+/// scatter w reflects (1 - r) / (1 + r), r the square root of 1 - w.
+#[must_use]
+pub fn grain_albedo(heap: f64) -> f64 {
+    let root = (1.0 - heap) / (1.0 + heap);
+    1.0 - root * root
 }
 
 /// How large a tile of ripples is.

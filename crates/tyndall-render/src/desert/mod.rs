@@ -11,6 +11,7 @@
 //! Not done: ripples do not change the outline of the sand.
 
 pub mod bed;
+mod blowing;
 mod building;
 pub mod gpu_data;
 mod kept;
@@ -21,6 +22,7 @@ pub mod reflection;
 pub mod report;
 pub mod ripple_tile;
 mod source;
+mod streaks;
 pub mod sun_horizon;
 mod textures;
 
@@ -36,8 +38,9 @@ use crate::clouds::lamp::Lamp;
 use crate::landscape::LandscapeSurroundings;
 use crate::sky::{SkyLightReach, TableBuilding};
 use crate::target::DEPTH_FORMAT;
-use crate::{RenderError, RendererConfig, View};
+use crate::{FrameTarget, RenderError, RendererConfig, View};
 use bed::Bed;
+use blowing::BlowingRenderer;
 use gpu_data::Desert;
 use mesh::DesertMesh;
 use source::BedSource;
@@ -58,6 +61,7 @@ pub struct DesertRenderer {
     dunes: RenderPipeline,
     uniform: Buffer,
     source: BedSource,
+    blowing: BlowingRenderer,
     /// Maps of the bed, and its revision.
     bed: Option<(u64, BedTextures)>,
     /// Textures of the tile of ripples, and its revision.
@@ -75,6 +79,8 @@ pub struct DesertRenderer {
 pub struct DesertDrawData {
     groups: [wgpu::BindGroup; 4],
     mesh: DesertMesh,
+    /// What sand in the air reads; `None` without any.
+    blowing: Option<blowing::Surroundings>,
 }
 
 impl DesertRenderer {
@@ -112,6 +118,7 @@ impl DesertRenderer {
             dunes,
             uniform: gpu.buffer("desert", bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST)?,
             source: BedSource::default(),
+            blowing: BlowingRenderer::new(gpu, config)?,
             bed: None,
             tile: None,
             tile_sampler: sampler(gpu, wgpu::AddressMode::Repeat),
@@ -183,7 +190,9 @@ impl DesertRenderer {
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         self.update_maps(gpu, lamp)?;
         self.update_mesh(gpu, encoder, timer, (scene, &mesh, &uniform), surroundings.frame)?;
-        self.bind(gpu, surroundings).map(|groups| groups.map(|groups| DesertDrawData { groups, mesh }))
+        let Some(groups) = self.bind(gpu, surroundings)? else { return Ok(None) };
+        let blowing = self.prepare_blowing(gpu, scene, lamp, surroundings)?;
+        Ok(Some(DesertDrawData { groups, mesh, blowing }))
     }
 
     /// Uploads what has changed of bed, ripples and light.
@@ -222,17 +231,6 @@ impl DesertRenderer {
             return Ok(None);
         };
         let Some(vertices) = &self.vertices else { return Ok(None) };
-        let tables = surroundings.tables;
-        let mut sky =
-            vec![("atmosphere", tables.atmosphere.as_entire_binding()), ("sky_view", tables.view.as_entire_binding())];
-        sky.extend([
-            ("column_table", tables.columns.as_binding()),
-            ("irradiance_table", tables.irradiance.as_binding()),
-        ]);
-        // The air, not the sand, shows the sky that the moon lights.
-        sky.extend(tables.moon_bindings().into_iter().filter(|(name, _)| *name == "moon"));
-        sky.extend(surroundings.light.bindings());
-        sky.extend(surroundings.air.bindings());
         let own = [
             ("desert", self.uniform.as_entire_binding()),
             ("bed_heights", bed.heights.as_entire_binding()),
@@ -245,15 +243,37 @@ impl DesertRenderer {
             ("desert_sampler", wgpu::BindingResource::Sampler(&bed.sampler)),
             ("ripple_sampler", wgpu::BindingResource::Sampler(&self.tile_sampler)),
         ];
-        let frame = [("frame", surroundings.frame.as_entire_binding())];
-        let shade = surroundings.clouds.shadow_bindings();
-        let dunes = &self.dunes;
-        Ok(Some([
-            dunes.bind(gpu, 0, &sky)?,
-            dunes.bind(gpu, 1, &frame)?,
-            dunes.bind(gpu, 2, &own)?,
-            dunes.bind(gpu, 3, &shade)?,
-        ]))
+        let [sky, frame, shade] = bind_surroundings(gpu, &self.dunes, surroundings)?;
+        Ok(Some([sky, frame, self.dunes.bind(gpu, 2, &own)?, shade]))
+    }
+
+    /// Makes what sand in the air needs; `None` without any.
+    fn prepare_blowing(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        lamp: Lamp,
+        surroundings: LandscapeSurroundings<'_>,
+    ) -> Result<Option<blowing::Surroundings>, RenderError> {
+        let [revision, _] = self.source.revisions();
+        let Some(bed) = self.source.bed() else { return Ok(None) };
+        let flies = self.blowing.prepare(gpu, scene, (revision, bed), lamp)?;
+        flies.then(|| bind_surroundings(gpu, self.blowing.pipeline(), surroundings)).transpose()
+    }
+
+    /// Records sand in the air over what the target's frame shows; nothing where there is none.
+    ///
+    /// # Errors
+    /// When memory does not suffice.
+    pub fn record_blowing(
+        &mut self,
+        gpu: &Gpu,
+        recording: (&mut wgpu::CommandEncoder, &mut PassTimer),
+        data: &DesertDrawData,
+        target: &FrameTarget,
+    ) -> Result<(), RenderError> {
+        let (Some(surroundings), Some((_, bed))) = (&data.blowing, &self.bed) else { return Ok(()) };
+        self.blowing.record(gpu, recording, (surroundings, &self.uniform, &bed.sampler), target)
     }
 
     fn update_mesh(
@@ -311,4 +331,23 @@ impl DesertRenderer {
         }
         pass.draw(0..2 * data.mesh.columns, 0..data.mesh.rings - 1);
     }
+}
+
+/// Binds what a pipeline reads of sky, air, frame and clouds.
+fn bind_surroundings(
+    gpu: &Gpu,
+    pipeline: &RenderPipeline,
+    surroundings: LandscapeSurroundings<'_>,
+) -> Result<blowing::Surroundings, RenderError> {
+    let tables = surroundings.tables;
+    let mut sky =
+        vec![("atmosphere", tables.atmosphere.as_entire_binding()), ("sky_view", tables.view.as_entire_binding())];
+    sky.extend([("column_table", tables.columns.as_binding()), ("irradiance_table", tables.irradiance.as_binding())]);
+    // The air, not the sand, shows the sky that the moon lights.
+    sky.extend(tables.moon_bindings().into_iter().filter(|(name, _)| *name == "moon"));
+    sky.extend(surroundings.light.bindings());
+    sky.extend(surroundings.air.bindings());
+    let frame = [("frame", surroundings.frame.as_entire_binding())];
+    let shade = surroundings.clouds.shadow_bindings();
+    Ok([pipeline.bind(gpu, 0, &sky)?, pipeline.bind(gpu, 1, &frame)?, pipeline.bind(gpu, 3, &shade)?])
 }

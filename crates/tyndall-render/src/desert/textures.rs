@@ -8,6 +8,7 @@ use tyndall_gpu::{Buffer, Gpu, Texture, TextureDesc};
 
 use super::bed::{Bed, mip_levels};
 use super::ripple_tile::RippleTile;
+use super::streaks::STREAK_TEXELS;
 use crate::RenderError;
 
 /// Maps of a field that follow from its sand alone.
@@ -56,6 +57,15 @@ pub(super) fn tile_textures(gpu: &Gpu, tile: &RippleTile) -> Result<[Texture; 3]
     ])
 }
 
+/// The tile of streaks.
+pub(super) fn streak_texture(gpu: &Gpu, tile: &[f32]) -> Result<Texture, RenderError> {
+    let size = [STREAK_TEXELS; 2];
+    let half = |value: &f32| f16::from_f32(*value).to_bits();
+    let floats = mip_levels(tile.to_vec(), size, |value, weight| value * weight, |a, b| a + b);
+    let halves: Vec<Vec<u16>> = floats.iter().map(|level| level.iter().map(half).collect()).collect();
+    levels(gpu, "streaks of blowing sand", size, TextureFormat::R16Float, &halves)
+}
+
 /// Repeats in all directions, smooth between texels and levels.
 pub(super) fn sampler(gpu: &Gpu, address: wgpu::AddressMode) -> wgpu::Sampler {
     gpu.device.create_sampler(&wgpu::SamplerDescriptor {
@@ -72,7 +82,16 @@ pub(super) fn sampler(gpu: &Gpu, address: wgpu::AddressMode) -> wgpu::Sampler {
 fn of_halves(gpu: &Gpu, label: &str, size: [usize; 2], map: &[[f32; 4]]) -> Result<Texture, RenderError> {
     let scale = |texel: [f32; 4], factor: f32| texel.map(|part| part * factor);
     let add = |a: [f32; 4], b: [f32; 4]| [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]];
-    let floats = mip_levels(map.to_vec(), size, scale, add);
+    half_levels(gpu, label, size, &mip_levels(map.to_vec(), size, scale, add))
+}
+
+/// A texture of four half floats a texel, from all its mip levels.
+pub(super) fn half_levels(
+    gpu: &Gpu,
+    label: &str,
+    size: [usize; 2],
+    floats: &[Vec<[f32; 4]>],
+) -> Result<Texture, RenderError> {
     let halves = |level: &Vec<[f32; 4]>| {
         let mut halves = vec![[0_u16; 4]; level.len()];
         halves.as_flattened_mut().reinterpret_cast_mut::<f16>().convert_from_f32_slice(level.as_flattened());

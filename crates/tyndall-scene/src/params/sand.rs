@@ -39,5 +39,10 @@ params! {
         ripple_index: f64 = 16.0, ["1", 5.0..=100.0, Log], "Bagnold 1941: 15 to 20";
         /// Factor on the light that sunlit sand throws on the sand around it.
         bounce: f64 = 1.0, ["1", 0.0..=2.0, Linear], "design";
+        /// Wind 10 m over level sand that blows sand over the crests as the picture is taken: from 5 m/s veils trail over the
+        /// lee, 15 m/s is a storm; 0 for none.
+        wind_m_s: f64 = 0.0, ["m/s", 0.0..=40.0, Linear], "Kawamura 1951; Bagnold 1941";
+        /// How long that wind has carried the streaks of blowing sand; frames of an animation go on from here.
+        wind_time_s: f64 = 0.0, ["s", 0.0..=100000.0, Linear], "design";
     }
 }
