@@ -1,10 +1,17 @@
-//! Pictures of the desert against finer ones, and shadows against a march.
+//! Pictures of the desert against finer ones, shadows against a march, and light against the CPU's.
 
+use std::f64::consts::PI;
+
+use tyndall_core::spectrum::rec709_from_spectrum;
 use tyndall_dunes::{DesertInputs, DesertParams, DesertSimulation};
 use tyndall_render::desert::bed::Bed;
+use tyndall_render::desert::reflection::sand_backscatter;
 use tyndall_render::desert::sun_horizon::{fineness, sun_horizon};
 use tyndall_render::exposure::expected_ev100;
 use tyndall_render::film::ExposedFilm;
+use tyndall_scattering::march::Marcher;
+use tyndall_scattering::orders::{OrdersQuality, SourceTable};
+use tyndall_scattering::sky_light::SkyLight;
 use tyndall_scene::Scene;
 
 use crate::render::{Studio, luminance, scene};
@@ -89,17 +96,22 @@ fn sun_share(bed: &Bed, place: [f64; 2], azimuth_from_east_rad: f64, elevation_r
     seen / all
 }
 
-/// Share of the sun's disc that pictures show at a place, from horizons of a grid of cells.
-fn drawn_share(tangents: &[f32], side: usize, cell_m: f64, place: [f64; 2], elevation_rad: f64) -> f64 {
+/// A map of square cells at a place, by the four cells around it.
+fn between_cells(map: &[f32], side: usize, cell_m: f64, place: [f64; 2]) -> f64 {
     let at = place.map(|at_m| at_m / cell_m + 0.5 * side as f64 - 0.5);
     let share = at.map(|at| at - at.floor());
     #[expect(clippy::cast_possible_truncation, reason = "cells are whole numbers")]
     let cell = |dx: f64, dy: f64| {
         let [x, y] = [at[0] + dx, at[1] + dy].map(|at| at.floor().rem_euclid(side as f64) as usize);
-        f64::from(tangents[y * side + x])
+        f64::from(map[y * side + x])
     };
     let row = |dy: f64| cell(0.0, dy) + share[0] * (cell(1.0, dy) - cell(0.0, dy));
-    let tangent = row(0.0) + share[1] * (row(1.0) - row(0.0));
+    row(0.0) + share[1] * (row(1.0) - row(0.0))
+}
+
+/// Share of the sun's disc that pictures show at a place, from horizons of a grid of cells.
+fn drawn_share(tangents: &[f32], side: usize, cell_m: f64, place: [f64; 2], elevation_rad: f64) -> f64 {
+    let tangent = between_cells(tangents, side, cell_m, place);
     let t = (0.5 + 0.5 * (elevation_rad - tangent.atan()) / 0.006).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
@@ -145,4 +157,111 @@ fn simulated(params: &DesertParams, steps: u32) -> Bed {
     let mut simulation = DesertSimulation::cold(params, &DesertInputs::default()).expect("dunes");
     simulation.advance(steps);
     Bed::new(&simulation).expect("a bed")
+}
+
+/// The light of a scene's sun and sky on sand, from the CPU.
+struct Light {
+    sky: SkyLight,
+    /// Sunlight on a surface that faces it (lx, linear Rec.709).
+    sun: [f64; 3],
+    to_sun: [f64; 3],
+}
+
+impl Light {
+    fn of(scene: &Scene) -> Self {
+        let marcher = Marcher::new(scene.model(), scene.sky.march_steps as usize).expect("eight wavelengths");
+        let source = SourceTable::new(&marcher, &OrdersQuality::preview());
+        let to_sun = scene.sun_direction().expect("a sun").unit().to_array();
+        let sun = rec709_from_spectrum(&marcher.sun_on_ground(to_sun[2])).map(|light| light / to_sun[2]);
+        Self { sky: SkyLight::new(&source, 0.0, to_sun[2]), sun, to_sun }
+    }
+
+    /// Radiance of even sand with a normal: the sun shines on it or not, and it sees a share of its sky.
+    fn radiance(&self, (normal, view): ([f64; 3], [f64; 3]), sees_sun: bool, open: f64) -> [f64; 3] {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let facing = dot(normal, self.to_sun);
+        let sines = ((1.0 - normal[2].powi(2)) * (1.0 - self.to_sun[2].powi(2))).max(1e-12).sqrt();
+        let azimuth = ((facing - normal[2] * self.to_sun[2]) / sines).clamp(-1.0, 1.0);
+        let sky = rec709_from_spectrum(&self.sky.irradiance(normal[2], azimuth));
+        let back = sand_backscatter(dot(self.to_sun, view));
+        let direct = if sees_sun { facing.max(0.0) * back } else { 0.0 };
+        [0, 1, 2].map(|channel| ALBEDO / PI * (self.sun[channel] * direct + open * sky[channel]))
+    }
+}
+
+/// Of the sand that light is measured on.
+const ALBEDO: f64 = 0.5;
+
+/// Grey, even sand without sheen and ripples, seen from 40 m above.
+fn even_sand() -> Scene {
+    let sand = [("sand.red", "0.5"), ("sand.green", "0.5"), ("sand.blue", "0.5"), ("sand.roughness_deg", "0")];
+    let plain = [("sand.shine", "0"), ("sand.bounce", "0"), ("sand.ripples", "none"), ("sun.elevation_deg", "14")];
+    let camera = [("camera.altitude_m", "40"), ("camera.pitch_deg", "-90"), ("camera.heading_deg", "0")];
+    dunes(1, &[&sand[..], &plain, &camera].concat())
+}
+
+/// Place and view of each pixel of a square picture straight down on a bed.
+fn looking_down(scene: &Scene, bed: &Bed, side_px: u32) -> Vec<([f64; 2], [f64; 3])> {
+    let camera = &scene.camera;
+    let top_m = camera.altitude_m + bed.at(camera.x_m, camera.y_m)[0];
+    let half = (0.5 * camera.field_of_view_deg).to_radians().tan();
+    let plane = |at: u32| 2.0 * (f64::from(at) + 0.5) / f64::from(side_px) - 1.0;
+    let seen = |pixel: u32| {
+        let across = [half * plane(pixel % side_px), -half * plane(pixel / side_px)];
+        let mut place = [camera.x_m, camera.y_m];
+        // Slopes times the ray's own stay below 0.3, so that each round leaves less than a third of the error.
+        for _ in 0..20 {
+            let fall_m = top_m - bed.at(place[0], place[1])[0];
+            place = [camera.x_m + fall_m * across[0], camera.y_m + fall_m * across[1]];
+        }
+        let length = (1.0 + across[0].powi(2) + across[1].powi(2)).sqrt();
+        (place, [-across[0] / length, -across[1] / length, 1.0 / length])
+    };
+    (0..side_px * side_px).map(seen).collect()
+}
+
+#[test]
+fn sand_in_sun_and_shade_is_as_bright_as_the_light_of_the_cpu_makes_it() {
+    const SIDE_PX: u32 = 48;
+    let scene = even_sand();
+    let bed = simulated(&scene.dune_params().expect("dunes"), scene.desert.steps);
+    let light = Light::of(&scene);
+    let sun = scene.sun_direction().expect("a sun");
+    let azimuth_from_east_rad = std::f64::consts::FRAC_PI_2 - sun.azimuth_rad;
+    let top_m = bed.highest_m();
+    let picture = Studio::new().radiance(&scene, [SIDE_PX, SIDE_PX]);
+    let (mut pixels, mut worst, mut blueness) = ([0.0; 2], [0.0_f64; 2], [0.0; 2]);
+    let mut off_sums = [[0.0; 3]; 2];
+    for ((place, view), found) in looking_down(&scene, &bed, SIDE_PX).into_iter().zip(&picture) {
+        let lowest_rad = 0.5 * sun.elevation_rad;
+        let over_rad = sun.elevation_rad - horizon_rad(&bed, place, azimuth_from_east_rad, top_m, lowest_rad);
+        let [_, east, north] = bed.at(place[0], place[1]);
+        let length = (1.0 + east * east + north * north).sqrt();
+        let normal = [-east / length, -north / length, 1.0 / length];
+        let facing = normal[0] * light.to_sun[0] + normal[1] * light.to_sun[1] + normal[2] * light.to_sun[2];
+        // Edges of shadows and grazing light are tested by themselves.
+        let lit = match (over_rad > 0.02 && facing > 0.1, over_rad < -0.02 && facing < 0.2 || facing < -0.05) {
+            (true, _) => 0,
+            (_, true) => 1,
+            _ => continue,
+        };
+        let open = between_cells(&bed.openness, 128, bed.cell_m, place).clamp(0.0, 1.0);
+        let wanted = light.radiance((normal, view), lit == 0, open);
+        let off = (0..3).map(|k| (f64::from(found[k]) / wanted[k] - 1.0).abs()).fold(0.0, f64::max);
+        worst[lit] = worst[lit].max(off);
+        off_sums[lit] = [0, 1, 2].map(|k| off_sums[lit][k] + f64::from(found[k]) / wanted[k] - 1.0);
+        pixels[lit] += 1.0;
+        blueness[lit] += f64::from(found[2]) / f64::from(found[0]);
+    }
+    let [sunny, shady] = [0, 1].map(|lit| blueness[lit] / pixels[lit]);
+    println!("pixels {pixels:?}, worst {worst:?}, blue over red {sunny:.3} in the sun, {shady:.3} in the shade");
+    assert!(pixels.iter().all(|count| *count > 50.0), "sun and shade are both seen: {pixels:?}");
+    // Tables of the sky and 40 m of air; openness in half floats, and slopes within cells, at single pixels.
+    for lit in [0, 1] {
+        let mean = off_sums[lit].map(|sum: f64| sum / pixels[lit]);
+        assert!(mean.iter().all(|off| off.abs() < 0.01), "off on average (0 sun, 1 shade) {lit}: {mean:?}");
+        assert!(worst[lit] < 0.06, "off at worst (0 sun, 1 shade) {lit}: {}", worst[lit]);
+    }
+    // Under a sun at 14 degrees: its own light is yellow, that of the sky blue.
+    assert!(shady > 1.8 * sunny, "blue over red {sunny} in the sun and {shady} in the shade");
 }
