@@ -16,7 +16,14 @@ struct DuneVertex {
     @builtin(position) clip: vec4<f32>,
     @location(0) from_camera: vec2<f32>, // m along the ground
     @location(1) position: vec3<f32>,    // m relative to the camera
-    @location(2) @interpolate(flat) spacing: f32, // m, of the quadrilateral
+    @location(2) altitude: f32,          // m
+    @location(3) @interpolate(flat) spacing: f32, // m, of the quadrilateral
+}
+
+/// A place (m) on the smooth sand, and height and slopes near it.
+struct DunePlace {
+    place: vec2<f32>,
+    bed: vec3<f32>,
 }
 
 /// A pixel's sand: where it lies and how it is seen.
@@ -40,7 +47,7 @@ fn dunes_vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) ring
     let position = place_position(vertex.xy, vertex.z);
     // Bare ground lies on the planet's own, which must not show through.
     let clip = place_clip(position) * vec4<f32>(1.0, 1.0, 1.001, 1.0);
-    return DuneVertex(clip, vertex.xy, position, vertex.w);
+    return DuneVertex(clip, vertex.xy, position, vertex.z, vertex.w);
 }
 
 /// Share of the sun's disc over the horizon of a place.
@@ -105,14 +112,34 @@ fn dune_radiance(pixel: DunePixel, albedo: vec3<f32>) -> vec3<f32> {
     return albedo * (from_sun + from_around + from_moon) / SKY_PI + desert.shine * direct * lit_side * mirror * glint;
 }
 
+/// Place (m) on the smooth sand that a pixel `width_m` wide sees, from where its line of sight meets the mesh: Newton's steps
+/// along the line, `view` towards the camera, `distance` away. Loops skip work where software adapters run both sides of a branch.
+fn dune_place(on_mesh: vec2<f32>, altitude: f32, view: vec3<f32>, distance: f32, width_m: f32) -> DunePlace {
+    let longest = 0.05 * distance;
+    var way = 0.0;
+    var bed = bed_at(on_mesh, width_m);
+    for (var step = 0; step < 3 && abs(bed.x - altitude - way * view.z) > 0.3 * width_m; step++) { // loops: 3
+        way = clamp(way + dune_step(bed, altitude + way * view.z, view), -longest, longest);
+        bed = bed_at(on_mesh + way * view.xy, width_m);
+    }
+    way = clamp(way + dune_step(bed, altitude + way * view.z, view), -longest, longest);
+    return DunePlace(on_mesh + way * view.xy, bed);
+}
+
+/// Way (m) towards the camera from a point at an altitude to the plane that touches the sand under it.
+fn dune_step(bed: vec3<f32>, altitude: f32, view: vec3<f32>) -> f32 {
+    return (bed.x - altitude) / max(view.z - dot(bed.yz, view.xy), 0.04);
+}
+
 @fragment
 fn dunes_fragment(vertex: DuneVertex) -> @location(0) vec4<f32> {
     let plane = frame_plane(vertex.clip);
     let distance = length(vertex.position);
     let view = -vertex.position / distance;
     let pixel_m = 0.7 * distance * frame_pixel_angle(plane);
-    let smooth_place = frame.position_m.xy + vertex.from_camera;
-    let coarse = bed_at(smooth_place, pixel_m);
+    let found = dune_place(frame.position_m.xy + vertex.from_camera, vertex.altitude, view, distance, pixel_m);
+    let smooth_place = found.place;
+    let coarse = found.bed;
     let facing = max(dot(normalize(vec3<f32>(-coarse.yz, 1.0)), view), 0.04);
     let wide_m = min(pixel_m * inverseSqrt(facing), 4.0 * pixel_m);
     let bed = bed_at(smooth_place, wide_m);
@@ -123,7 +150,7 @@ fn dunes_fragment(vertex: DuneVertex) -> @location(0) vec4<f32> {
     let ripple_shade = relief_shade(relief, hit.xy, hit.z, bed.yz, dune_lamp(sun));
     let place = hit.xy;
     let long = view.xy / max(length(view.xy), 1e-4) * pixel_m / facing;
-    let quad_m = 0.25 * vertex.spacing;
+    let quad_m = 0.13 * vertex.spacing;
     let ripples = ripples_at(place, long, select(pixel_m, quad_m, desert.ripples == 1u), length(wind.xy));
     let slope = bed.yz + ripples.slope;
     let normal = normalize(vec3<f32>(-slope, 1.0));

@@ -10,6 +10,7 @@ mod cloud_pictures;
 mod cloud_shadows;
 mod clouds;
 mod desert;
+mod desert_mesh;
 mod desert_wind;
 mod dome;
 mod gpu_orders;

@@ -12,6 +12,7 @@ use tyndall_scene::{Orders, OrdersDetail, Scene};
 
 use crate::aerial::{AerialRequest, AerialVolume};
 use crate::clouds::{CloudDrawData, CloudProgress, CloudRenderer, CloudSurroundings};
+use crate::desert::mesh::Fineness as DesertFineness;
 use crate::desert::{DesertDrawData, DesertProgress, DesertRenderer};
 use crate::develop::DevelopRenderer;
 use crate::exposure::ev100_from_gain;
@@ -290,6 +291,11 @@ impl Renderer {
     /// of such a picture is that of coarser cells, and figures of the field are up to half a second old; sand is exact.
     pub fn set_sand_under_way(&mut self, is_under_way: bool) {
         self.desert.set_quick(is_under_way);
+    }
+
+    /// Chooses how fine the desert's mesh is where its sand is at rest, for tests.
+    pub fn set_desert_fineness(&mut self, fineness: DesertFineness) {
+        self.desert.set_fineness(fineness);
     }
 
     /// The volume of air in front of the camera, for tests and compositors.

@@ -1,21 +1,33 @@
 //! How fine the desert's mesh is in a view. WGSL: `shaders/desert/mesh.wgsl`.
 //!
 //! Rings around the camera over the azimuths that are seen, each wider than the last by the same factor: quadrilaterals of
-//! equal size on the picture at any distance, without seams, and none behind the camera. A dune's windward and lee slopes
-//! make its crest's height wrong by a sixth of the spacing at most.
+//! equal size on the picture at any distance, without seams, and none behind the camera. Each vertex may move by half the
+//! way to the next ring, onto the crest that the camera sees there against what is behind it: outlines are exact to a part of
+//! the spacing. Within quadrilaterals each pixel finds its own place on the smooth sand.
 
 use tyndall_scene::Scene;
 
 use crate::View;
-use crate::landscape::mesh::{Azimuths, azimuths};
+use crate::landscape::mesh::{Azimuths, azimuths, pixel_rad};
 
-/// Rings, the centre included.
-const RINGS: u32 = 1536;
+/// Most rings, the centre included, and the least.
+const RINGS_MOST: u32 = 1536;
+const RINGS_LEAST: u32 = 96;
 
-/// Rows of a quick picture for each ring, its least rings, and columns that become one.
-const QUICK_RING_PX: u32 = 2;
-const LEAST_RINGS: u32 = 96;
-const QUICK_COLUMNS: u32 = 2;
+/// From a ring to the next, and from a column to the next, in pixels that face the camera at that distance.
+const FINE_PX: [f64; 2] = [12.0, 3.0];
+const QUICK_PX: [f64; 2] = [16.0, 4.0];
+
+/// How fine a mesh is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fineness {
+    /// As fine as makes a difference.
+    Full,
+    /// For pictures.
+    Fine,
+    /// For pictures that are soon followed by others.
+    Quick,
+}
 
 /// The mesh of a view. Lengths in metres, angles from east to north.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,30 +49,28 @@ pub struct DesertMesh {
 impl DesertMesh {
     /// For a view of a scene whose camera stands `clearance_m` over sand that is nowhere higher than `highest_m`.
     #[must_use]
-    pub fn new(scene: &Scene, view: View, size_px: [u32; 2], clearance_m: f64, highest_m: f64) -> Self {
+    pub fn new(
+        (scene, view, size_px): (&Scene, View, [u32; 2]),
+        (clearance_m, highest_m): (f64, f64),
+        fineness: Fineness,
+    ) -> Self {
         let frame = view.frame(&scene.camera);
         let radius_m = 1e3 * scene.atmosphere.planet_radius_km;
         let horizon_m = |altitude_m: f64| (altitude_m.max(0.0) * (2.0 * radius_m + altitude_m)).sqrt();
         let far_radius_m = (horizon_m(frame.position.z) + horizon_m(highest_m)).clamp(1000.0, 1.5 * radius_m);
-        let Azimuths { first_rad, step_rad, count } = azimuths(&frame, view, size_px);
+        let centre_radius_m = (0.25 * clearance_m).clamp(0.02, 0.25 * far_radius_m);
+        let [ring_px, column_px] = fineness.spacing_px();
+        let rings = (far_radius_m / centre_radius_m).ln() / (ring_px * pixel_rad(&frame, view, size_px));
+        let Azimuths { first_rad, step_rad, count } = azimuths(&frame, view, size_px, column_px);
         Self {
             columns: count,
-            rings: RINGS,
-            centre_radius_m: (0.25 * clearance_m).clamp(0.02, 0.25 * far_radius_m),
+            #[expect(clippy::cast_possible_truncation, reason = "limited to the most rings")]
+            rings: rings.clamp(f64::from(RINGS_LEAST), f64::from(RINGS_MOST)) as u32,
+            centre_radius_m,
             far_radius_m,
             first_azimuth_rad: first_rad,
             azimuth_step_rad: step_rad,
         }
-    }
-
-    /// The same view with few quadrilaterals, each several pixels of the picture wide: for pictures that are soon followed by
-    /// others. Software adapters shade whole blocks of pixels for each triangle, however small it is.
-    #[must_use]
-    pub fn quick(self, size_px: [u32; 2]) -> Self {
-        let rings = (size_px[1] / QUICK_RING_PX).clamp(LEAST_RINGS, self.rings);
-        let columns = (self.columns / QUICK_COLUMNS).max(2);
-        let wider = f64::from(self.columns - 1) / f64::from(columns - 1);
-        Self { rings, columns, azimuth_step_rad: self.azimuth_step_rad * wider, ..self }
     }
 
     /// Number of vertices.
@@ -70,20 +80,49 @@ impl DesertMesh {
     }
 }
 
+impl Fineness {
+    fn spacing_px(self) -> [f64; 2] {
+        match self {
+            Self::Full => [1.0, 1.0],
+            Self::Fine => FINE_PX,
+            Self::Quick => QUICK_PX,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_quick_mesh_covers_the_same_view_with_fewer_quadrilaterals() {
+    fn meshes_for_pictures_cover_the_same_view_with_fewer_quadrilaterals() {
         let (scene, size_px) = (Scene::default(), [320, 180]);
-        let fine = DesertMesh::new(&scene, View::Camera, size_px, 10.0, 30.0);
-        let quick = fine.quick(size_px);
+        let mesh = |fineness| DesertMesh::new((&scene, View::Camera, size_px), (10.0, 30.0), fineness);
+        let [full, fine, quick] = [Fineness::Full, Fineness::Fine, Fineness::Quick].map(mesh);
         let last = |mesh: &DesertMesh| mesh.first_azimuth_rad + mesh.azimuth_step_rad * f64::from(mesh.columns - 1);
-        assert!((last(&quick) - last(&fine)).abs() < 1e-9, "{quick:?}, {fine:?}");
-        assert!(quick.vertices() < fine.vertices() / 20, "{} of {} vertices", quick.vertices(), fine.vertices());
-        let same =
-            DesertMesh { rings: fine.rings, columns: fine.columns, azimuth_step_rad: fine.azimuth_step_rad, ..quick };
-        assert_eq!(same, fine, "as far as before");
+        for (coarser, times) in [(fine, 5), (quick, 20)] {
+            assert!(
+                coarser.first_azimuth_rad - full.first_azimuth_rad < full.azimuth_step_rad,
+                "{coarser:?}, {full:?}"
+            );
+            assert!(last(&full) - last(&coarser) < full.azimuth_step_rad, "{coarser:?}, {full:?}");
+            assert!(coarser.vertices() * times < full.vertices(), "{} of {}", coarser.vertices(), full.vertices());
+            assert_eq!(
+                (coarser.centre_radius_m, coarser.far_radius_m),
+                (full.centre_radius_m, full.far_radius_m),
+                "as far as before"
+            );
+        }
+    }
+
+    #[test]
+    fn larger_pictures_have_finer_meshes_up_to_the_most_rings() {
+        let scene = Scene::default();
+        let rings = |height_px| {
+            let size_px = [2 * height_px, height_px];
+            DesertMesh::new((&scene, View::Camera, size_px), (10.0, 30.0), Fineness::Fine).rings
+        };
+        assert!(rings(100) >= RINGS_LEAST && rings(100) < rings(200), "{} and {}", rings(100), rings(200));
+        assert_eq!(rings(20_000), RINGS_MOST, "no more than that");
     }
 }

@@ -42,7 +42,7 @@ use crate::{FrameTarget, RenderError, RendererConfig, View};
 use bed::Bed;
 use blowing::BlowingRenderer;
 use gpu_data::Desert;
-use mesh::DesertMesh;
+use mesh::{DesertMesh, Fineness};
 use source::BedSource;
 pub use source::DesertProgress;
 use textures::{BedTextures, light_texture, sampler, tile_textures};
@@ -72,6 +72,8 @@ pub struct DesertRenderer {
     vertices: Option<Buffer>,
     /// What the vertices were computed for, and from where.
     holds: Option<(u64, Desert, [f32; 3])>,
+    /// Of meshes of sand at rest.
+    fineness: Fineness,
 }
 
 /// What is drawn of a frame's desert.
@@ -125,6 +127,7 @@ impl DesertRenderer {
             light: None,
             vertices: None,
             holds: None,
+            fineness: Fineness::Fine,
         })
     }
 
@@ -141,6 +144,11 @@ impl DesertRenderer {
     /// Chooses whether pictures of the desert are soon followed by others; see [`Bed::quick`].
     pub fn set_quick(&mut self, is_quick: bool) {
         self.source.set_quick(is_quick);
+    }
+
+    /// Chooses how fine meshes of sand at rest are, for tests.
+    pub fn set_fineness(&mut self, fineness: Fineness) {
+        self.fineness = fineness;
     }
 
     /// Chooses when the desert is simulated; at first the frame waits for it.
@@ -319,8 +327,8 @@ impl DesertRenderer {
     fn mesh(&self, scene: &Scene, view: View, size_px: [u32; 2], bed: &Bed) -> DesertMesh {
         let camera = &scene.camera;
         let clearance_m = camera.altitude_m - bed.at(camera.x_m, camera.y_m)[0];
-        let mesh = DesertMesh::new(scene, view, size_px, clearance_m, bed.highest_m());
-        if self.source.is_quick() { mesh.quick(size_px) } else { mesh }
+        let fineness = if self.source.is_quick() { Fineness::Quick } else { self.fineness };
+        DesertMesh::new((scene, view, size_px), (clearance_m, bed.highest_m()), fineness)
     }
 
     /// Draws the desert; first of all, for it hides most of what is behind it.

@@ -67,7 +67,7 @@ impl Mesh {
             return None;
         }
         let split_radius_m = (8.0 * centre_radius_m).clamp(200.0, 0.7 * far_radius_m.max(300.0));
-        let azimuths = azimuths(&frame, view, size_px);
+        let azimuths = azimuths(&frame, view, size_px, COLUMN_PX);
         Some(Self {
             rings: NEAR_RINGS + FAR_RINGS,
             far_rings: FAR_RINGS,
@@ -97,15 +97,10 @@ pub(crate) struct Azimuths {
     pub(crate) count: u32,
 }
 
-/// Columns for what a view of so many pixels sees.
+/// Columns `column_px` wide for what a view of so many pixels sees.
 #[expect(clippy::cast_possible_truncation, reason = "limited to the largest number of columns")]
-pub(crate) fn azimuths(frame: &CameraFrame, view: View, size_px: [u32; 2]) -> Azimuths {
-    let px_rad = if view == View::Panorama {
-        TAU / f64::from(size_px[0])
-    } else {
-        2.0 * frame.tan_half_view.atan() / f64::from(size_px[1])
-    };
-    let step_rad = (COLUMN_PX * px_rad).max(TAU / f64::from(COLUMNS_MAX - 4));
+pub(crate) fn azimuths(frame: &CameraFrame, view: View, size_px: [u32; 2], column_px: f64) -> Azimuths {
+    let step_rad = (column_px * pixel_rad(frame, view, size_px)).max(TAU / f64::from(COLUMNS_MAX - 4));
     let Some([low, high]) = azimuth_range(frame, view, size_px) else {
         let count = (TAU / step_rad).ceil();
         return Azimuths { first_rad: SEAM - PI, step_rad: (TAU - 2.0 * SEAM) / count, count: count as u32 + 1 };
@@ -114,6 +109,15 @@ pub(crate) fn azimuths(frame: &CameraFrame, view: View, size_px: [u32; 2]) -> Az
     let first = (low / step_rad).floor() - 1.0;
     let count = ((high / step_rad).ceil() + 1.0 - first + 1.0).clamp(2.0, f64::from(COLUMNS_MAX));
     Azimuths { first_rad: first * step_rad, step_rad, count: count as u32 }
+}
+
+/// Mean angle (rad) of a pixel: along a panorama's width, or up the picture.
+pub(crate) fn pixel_rad(frame: &CameraFrame, view: View, [width_px, height_px]: [u32; 2]) -> f64 {
+    if view == View::Panorama {
+        TAU / f64::from(width_px)
+    } else {
+        2.0 * frame.tan_half_view.atan() / f64::from(height_px)
+    }
 }
 
 /// Azimuths at the picture's edges, which enclose those inside it; `None` when it shows zenith or nadir, or nearly.
