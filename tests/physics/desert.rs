@@ -1,4 +1,4 @@
-//! Pictures of the desert against finer ones, shadows against a march, and light against the CPU's.
+//! Pictures of the desert against finer ones, shadows against a march, light against the CPU's, and slip faces.
 
 use std::f64::consts::PI;
 
@@ -264,4 +264,32 @@ fn sand_in_sun_and_shade_is_as_bright_as_the_light_of_the_cpu_makes_it() {
     }
     // Under a sun at 14 degrees: its own light is yellow, that of the sky blue.
     assert!(shady > 1.8 * sunny, "blue over red {sunny} in the sun and {shady} in the shade");
+}
+
+#[test]
+fn slip_faces_of_the_drawn_surface_stand_at_repose() {
+    let scene = dunes(1, &[("dunes.side", "256"), ("desert.steps", "3000")]);
+    let params = scene.dune_params().expect("dunes");
+    let mut simulation = DesertSimulation::cold(&params, &DesertInputs::default()).expect("dunes");
+    simulation.advance(scene.desert.steps);
+    let (maps, bed) = (simulation.maps().expect("maps"), Bed::new(&simulation).expect("a bed"));
+    let [nx, ny] = maps.size;
+    let is_slip = |x: usize, y: usize| maps.slip_face[(y % ny) * nx + x % nx] != 0;
+    // The middle of faces: their brink and foot are rounded by the width of a cell.
+    let inner = |index: &usize| {
+        let [x, y] = [index % nx + nx, index / nx + ny];
+        (0..9).all(|k| is_slip(x + k % 3 - 1, y + k / 3 - 1))
+    };
+    let steepness = |index: usize| {
+        let place = |at: usize, count: usize| bed.cell_m * (at as f64 + 0.5 - 0.5 * count as f64);
+        let [_, east, north] = bed.at(place(index % nx, nx), place(index / nx, ny));
+        east.hypot(north).atan().to_degrees()
+    };
+    let mut slopes: Vec<f64> = (0..nx * ny).filter(inner).map(steepness).collect();
+    slopes.sort_by(f64::total_cmp);
+    let at = |percent: usize| slopes[(slopes.len() - 1) * percent / 100];
+    println!("{} cells: 5 % {:.1}, median {:.1}, 95 % {:.1} degrees", slopes.len(), at(5), at(50), at(95));
+    assert!(slopes.len() > 100, "{} cells of slip faces", slopes.len());
+    assert!((30.0..=34.0).contains(&at(50)), "the median is {} degrees", at(50));
+    assert!(at(5) > 28.0 && at(95) <= 34.5, "5 % {}, 95 % {} degrees", at(5), at(95));
 }

@@ -6,6 +6,8 @@
 //! is. Passes over near neighbours, then over every second and every third cell further out, and over near ones again to
 //! take out the grain of the wide passes. About 0.2 us a cell. For pictures and maps only: nothing here is exact to the quantum.
 
+pub mod repose;
+
 use rayon::prelude::*;
 
 use crate::edges::Edges;

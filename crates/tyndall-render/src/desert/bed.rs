@@ -9,6 +9,7 @@ use tyndall_dunes::blur::{blur, quick_smooth_bed};
 use tyndall_dunes::export::DuneMaps;
 use tyndall_dunes::measure::HeightGrid;
 use tyndall_dunes::openness::{coarse_openness, openness};
+use tyndall_dunes::smooth::repose::at_repose;
 use tyndall_dunes::smooth::smooth_bed;
 
 use crate::RenderError;
@@ -61,8 +62,14 @@ impl Bed {
         let cells: Vec<f32> = maps.height_m.iter().map(|height| (f64::from(*height) / cell_m) as f32).collect();
         let step = simulation.params().dunes.slab_cells as f32;
         let heights = HeightGrid::new(size, cells).expect("a field has as many heights as cells");
-        let smooth = if is_quick { quick_smooth_bed } else { smooth_bed };
-        let heights = over_rock(&smooth(&heights, step, edges), &maps);
+        let smooth = if is_quick {
+            quick_smooth_bed(&heights, step, edges)
+        } else {
+            // The planes of brink and foot pull narrow slip faces steeper than sand lies.
+            let steepest = simulation.params().dunes.repose_deg.to_radians().tan();
+            at_repose(&smooth_bed(&heights, step, edges), &heights, steepest, edges)
+        };
+        let heights = over_rock(&smooth, &maps);
         let openness = if is_quick {
             coarse_openness(&heights, QUICK_AZIMUTHS, edges, QUICK_CELLS)?
         } else {
