@@ -18,7 +18,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("tyndall-gpu-sim", &["tyndall-gpu", "tyndall-dunes"]),
     ("tyndall-render", &["tyndall-gpu", "tyndall-scene", "tyndall-io"]),
     ("tyndall-cli", &["tyndall-render", "tyndall-io"]),
-    ("tyndall-app", &["tyndall-render", "tyndall-io"]),
+    ("tyndall-app", &["tyndall-render", "tyndall-io", "tyndall-gpu-sim"]),
     ("tyndall", &["tyndall-render", "tyndall-io", "tyndall-gpu-sim"]),
     ("xtask", &[]),
 ];

@@ -1,13 +1,16 @@
 //! The sand automata on an adapter against those in main memory: the same bits.
 
+use tyndall_dunes::by_hand::{parse_strokes, touches};
 use tyndall_dunes::ripples::{RippleBed, RippleParams, RippleRule};
 use tyndall_dunes::slab::{
     AbrasionParams, ClassicParams, DuneField, DuneModel, DuneParams, DuneState, VegetationParams,
 };
 use tyndall_dunes::wind::{Wind, WindSchedule};
-use tyndall_dunes::{Edges, SandDevice, SandSimulation as _};
-use tyndall_gpu::GpuError;
-use tyndall_gpu_sim::{GpuDunes, GpuRipples, GpuSimError};
+use tyndall_dunes::{
+    DesertInputs, DesertParams, DesertSource, DuneStepper, Edges, SandDevice, SandSimulation as _, Side, SteppedBy,
+};
+use tyndall_gpu::{AdapterChoice, GpuError, GpuOptions};
+use tyndall_gpu_sim::{GpuDunes, GpuRipples, GpuSimError, GpuStepper};
 use tyndall_tests::gpu;
 
 use crate::memory::with_budget;
@@ -31,7 +34,7 @@ where
 }
 
 fn bed(params: &RippleParams, size: [usize; 2]) -> RippleBed {
-    let noisy = RippleBed::new(&RippleParams { side: tyndall_dunes::Side::Cells256, ..params.clone() });
+    let noisy = RippleBed::new(&RippleParams { side: Side::Cells256, ..params.clone() });
     let noisy = noisy.expect("parameters are in range");
     let mut bed = RippleBed::with_rule(RippleRule::new(params).expect("in range"), size, 3).expect("powers of two");
     bed.set_heights(&noisy.heights()[..size[0] * size[1]]).expect("as many as there are cells");
@@ -195,4 +198,37 @@ fn the_classic_rule_is_refused_by_name() {
     assert_eq!(device.write(&classic), Err(GpuSimError::Classic), "nor can it be brought later");
     let read = device.read().unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(read.state_hash(), host.state_hash(), "the field on the device is as it was");
+}
+
+#[test]
+fn the_desert_of_a_scene_is_the_same_sand_whoever_makes_its_steps() {
+    let made = |params: &DesertParams, stepper: Option<Box<dyn DuneStepper>>| {
+        let strokes = parse_strokes("20 dig 6 2 0 0 10 0; 45 add 5 1 -9 3").expect("strokes");
+        let touches = touches(&strokes, 1.0, [64, 64]).expect("on the field");
+        let inputs = DesertInputs { touches, ..DesertInputs::default() };
+        let mut source = DesertSource::default();
+        source.set_stepper(stepper);
+        // Asked for in pieces, and from before a stroke, as a window with a brush does.
+        let hashes = [30, 70, 50].map(|step| {
+            let desert = source.at_unless(params, &inputs, step, &|_| false).expect("possible");
+            desert.expect("waited for").hash()
+        });
+        (hashes, source.stepped_by().clone())
+    };
+    let device = || {
+        let options = GpuOptions { adapter: AdapterChoice::Software, max_memory_bytes: None };
+        Some(Box::new(GpuStepper::new(options)) as Box<dyn DuneStepper>)
+    };
+    let mut params = DesertParams::default();
+    params.dunes.side = Side::Cells64;
+    let (plain, by) = made(&params, None);
+    assert_eq!(by, SteppedBy::Processor, "unless a device is chosen");
+    assert_eq!(made(&params, device()), (plain, SteppedBy::Device), "the bits of the processor");
+
+    params.dunes.model = DuneModel::Classic;
+    let (classic, _) = made(&params, None);
+    let (instead, by) = made(&params, device());
+    assert_eq!(instead, classic, "what the device cannot do the processor does");
+    let SteppedBy::ProcessorInstead(reason) = by else { panic!("the classic rule has no compute form: {by:?}") };
+    assert!(reason.contains("classic"), "{reason}");
 }

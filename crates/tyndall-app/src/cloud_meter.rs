@@ -1,10 +1,8 @@
 //! The picture of the scene's clouds against random walks through their cells.
 
-use std::sync::Arc;
-
-use tyndall_gpu::Gpu;
+use tyndall_gpu::{Gpu, GpuOptions};
 use tyndall_render::clouds::comparison::{CloudComparison, CloudVerdict};
-use tyndall_render::{FrameFormat, Renderer, RendererConfig};
+use tyndall_render::{FrameFormat, RenderError, Renderer, RendererConfig};
 use tyndall_scene::{CloudKind, Scene};
 
 use crate::{error_meter::Thoroughness, meter::Meter};
@@ -37,16 +35,17 @@ fn comparison(thoroughness: Thoroughness) -> CloudComparison {
     CloudComparison { size_px, paths, seed: 1, bin: 4 }
 }
 
-/// Starts a comparison of clouds on a device; `wake` is called whenever there is news.
+/// Starts a comparison of clouds on another device of an adapter; `wake` is called whenever there is news.
 pub(crate) fn start(
     meter: &mut CloudMeter,
-    (gpu, subject): (Arc<Gpu>, CloudSubject),
+    (options, subject): (GpuOptions, CloudSubject),
     thoroughness: Thoroughness,
     wake: impl Fn() + Send + Sync + 'static,
 ) {
     let compare = move |CloudSubject(scene): &CloudSubject, progress: &(dyn Fn(f64) -> bool + Sync)| {
         let config = RendererConfig { frame: FrameFormat::Float, ..RendererConfig::default() };
         let run = || {
+            let gpu = Gpu::open(&options).map_err(RenderError::from)?;
             let mut renderer = Renderer::new(&gpu, config)?;
             comparison(thoroughness).run((&gpu, &mut renderer), scene, &mut |share| progress(share))
         };

@@ -59,7 +59,7 @@ impl App {
         let Some(stage) = &mut self.bench.stage else { return };
         if !problem.lost {
             stage.rebuild();
-            self.bench.gallery.forget(stage);
+            self.bench.gallery.forget();
             return;
         }
         self.keep_for_recovery();

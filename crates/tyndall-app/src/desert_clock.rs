@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use crate::steps_on::StepsOn;
+
 /// Longest step (s) of the room's clock; a window that was asleep must not jump.
 const MAX_STEP_S: f64 = 0.5;
 
@@ -16,6 +18,8 @@ pub(crate) struct DesertClock {
     pub(crate) speed: f64,
     /// Steps per second that came out of it lately; 0 before any did.
     pub(crate) reached: f64,
+    /// Who makes the steps.
+    pub(crate) steps_on: StepsOn,
     /// Time (s) of the room's clock up to which the wind has blown.
     run_to_s: Option<f64>,
     /// The part of a step that is left over.
@@ -24,7 +28,7 @@ pub(crate) struct DesertClock {
 
 impl Default for DesertClock {
     fn default() -> Self {
-        Self { is_playing: false, speed: 30.0, reached: 0.0, run_to_s: None, part: 0.0 }
+        Self { is_playing: false, speed: 30.0, reached: 0.0, steps_on: StepsOn::default(), run_to_s: None, part: 0.0 }
     }
 }
 

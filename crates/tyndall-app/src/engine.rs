@@ -10,6 +10,7 @@ use std::{
 };
 
 use egui_wgpu::RenderState;
+use tyndall_dunes::SteppedBy;
 use tyndall_gpu::{Gpu, GpuError, PassTiming};
 use tyndall_io::TableFolder;
 use tyndall_render::{
@@ -19,6 +20,8 @@ use tyndall_render::{
     sky::{TableBuilding, TableProgress, Wake},
 };
 use tyndall_scene::Scene;
+
+use crate::steps_on::StepsOn;
 
 /// Frames whose timings are kept.
 pub(crate) const TIMED_FRAMES: usize = 120;
@@ -73,7 +76,7 @@ impl FrameTimings {
 /// A renderer on the window's device.
 pub(crate) struct Engine {
     /// The device with its budget and its state.
-    pub(crate) gpu: Arc<Gpu>,
+    pub(crate) gpu: Gpu,
     renderer: Renderer,
     /// Whether a table or clouds have come that no frame has shown yet.
     news: Arc<AtomicBool>,
@@ -81,13 +84,15 @@ pub(crate) struct Engine {
     pub(crate) timings: VecDeque<FrameTimings>,
     /// The frame whose timings are on their way.
     timed: Option<([u32; 2], u32)>,
+    /// Who made the steps of the sand shown last.
+    stepped_by: Option<SteppedBy>,
     /// How long making the renderer took.
     pub(crate) start_ms: f64,
 }
 
 impl Engine {
     /// Makes a renderer that wakes the window when a table or clouds have come.
-    pub(crate) fn new(state: &RenderState, ctx: &egui::Context) -> Result<Self, Problem> {
+    pub(crate) fn new(state: &RenderState, ctx: &egui::Context, steps_on: StepsOn) -> Result<Self, Problem> {
         let started = Instant::now();
         let gpu = Gpu::from_parts(&state.adapter, state.device.clone(), state.queue.clone(), None);
         let mut renderer = Renderer::new(&gpu, RendererConfig::default())?;
@@ -99,8 +104,9 @@ impl Engine {
             sender.store(true, Ordering::Release);
             ctx.request_repaint();
         })));
+        renderer.set_dune_stepper(steps_on.stepper(gpu.adapter()));
         let start_ms = started.elapsed().as_secs_f64() * 1e3;
-        Ok(Self { gpu: Arc::new(gpu), renderer, news, timings: VecDeque::new(), timed: None, start_ms })
+        Ok(Self { gpu, renderer, news, timings: VecDeque::new(), timed: None, stepped_by: None, start_ms })
     }
 
     /// How the slow table of the sky stands.
@@ -116,6 +122,22 @@ impl Engine {
     /// How the desert stands.
     pub(crate) fn desert(&self) -> &DesertProgress {
         self.renderer.desert_progress()
+    }
+
+    /// Chooses who makes the steps of dunes.
+    pub(crate) fn set_steps_on(&mut self, steps_on: StepsOn) {
+        self.renderer.set_dune_stepper(steps_on.stepper(self.gpu.adapter()));
+    }
+
+    /// Tells once in the log when the device that was to move sand could not.
+    fn tell_stepping(&mut self) {
+        let by = self.renderer.desert_progress().report.as_ref().map(|report| report.stepped_by.clone());
+        if let Some(SteppedBy::ProcessorInstead(reason)) = &by
+            && self.stepped_by != by
+        {
+            tracing::warn!(reason, "the processor moves the sand, not the graphics device");
+        }
+        self.stepped_by = by;
     }
 
     /// Chooses whether pictures of sand are soon followed by others, and may be a little less exact.
@@ -148,6 +170,7 @@ impl Engine {
         // Callbacks run while polling; without it a loss would go unnoticed.
         self.gpu.poll()?;
         self.gpu.check()?;
+        self.tell_stepping();
         self.timed = self.gpu.has_timestamps().then_some((target.size_px(), divisor));
         Ok(())
     }

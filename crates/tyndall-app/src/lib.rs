@@ -39,6 +39,7 @@ mod relevance;
 mod sand_brush;
 mod sky_probe;
 mod stage;
+mod steps_on;
 mod sun_clock;
 mod theme;
 mod thumbnails;

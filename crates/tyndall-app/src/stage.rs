@@ -12,6 +12,7 @@ use crate::{
     detail::{self, Detail},
     engine::{Engine, Problem},
     preview::{Preview, reduced},
+    steps_on::StepsOn,
 };
 
 /// Longest frames (ms) while something moves, and while it is sand, which the processor moves beside the frames.
@@ -62,12 +63,14 @@ pub(crate) struct Stage {
     simulating_since_s: Option<f64>,
     /// Whether the wind blows over sand, or a hand is on it.
     is_sand_under_way: bool,
+    /// Who makes the steps of dunes.
+    steps_on: StepsOn,
 }
 
 impl Stage {
     /// A stage on the window's device.
     pub(crate) fn new(state: RenderState, ctx: &egui::Context) -> Self {
-        let engine = Engine::new(&state, ctx);
+        let engine = Engine::new(&state, ctx, StepsOn::default());
         let problem = engine.as_ref().err().cloned();
         Self {
             state,
@@ -87,6 +90,7 @@ impl Stage {
             frames: 0,
             simulating_since_s: None,
             is_sand_under_way: false,
+            steps_on: StepsOn::default(),
         }
     }
 
@@ -95,14 +99,19 @@ impl Stage {
         self.is_sand_under_way = is_under_way;
     }
 
+    /// Chooses who makes the steps of dunes.
+    pub(crate) fn set_steps_on(&mut self, steps_on: StepsOn) {
+        if self.steps_on != steps_on {
+            self.steps_on = steps_on;
+            if let Ok(engine) = &mut self.engine {
+                engine.set_steps_on(steps_on);
+            }
+        }
+    }
+
     /// The renderer, unless it could not be made.
     pub(crate) fn engine(&self) -> Option<&Engine> {
         self.engine.as_ref().ok()
-    }
-
-    /// The window's graphics.
-    pub(crate) fn state(&self) -> &RenderState {
-        &self.state
     }
 
     /// Why the picture is not that of the scene.
@@ -200,7 +209,7 @@ impl Stage {
         self.detail = Detail::default();
         // The old one gives its memory back first.
         self.engine = Err(Problem { text: String::new(), rebuild: true, lost: false });
-        self.engine = Engine::new(&self.state, &self.ctx);
+        self.engine = Engine::new(&self.state, &self.ctx, self.steps_on);
         self.problem = self.engine.as_ref().err().cloned();
     }
 

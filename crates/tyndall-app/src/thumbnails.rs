@@ -1,15 +1,13 @@
-//! Small pictures of scenes, drawn by a thread with a renderer of its own, so that the window never waits for one.
+//! Small pictures of scenes, drawn by a thread with a device and a renderer of its own, so that the window never waits for one.
 
 use std::{
     io,
-    sync::{
-        Arc,
-        mpsc::{Receiver, Sender, channel},
-    },
+    sync::mpsc::{Receiver, Sender, channel},
     thread,
 };
 
-use tyndall_gpu::Gpu;
+use egui::ColorImage;
+use tyndall_gpu::{Gpu, GpuOptions};
 use tyndall_render::{FrameTarget, RenderError, Renderer, RendererConfig};
 use tyndall_scene::Scene;
 
@@ -18,8 +16,8 @@ use crate::detail::coarse;
 /// Size of the pictures.
 pub(crate) const SIZE_PX: [u32; 2] = [192, 108];
 
-/// Which picture, and the target with it; none when the scene or the GPU refused.
-type Drawn = (usize, Option<FrameTarget>);
+/// Which picture, and what it shows; nothing when the scene or the GPU refused.
+type Drawn = (usize, Option<ColorImage>);
 
 /// The thread and what it has been asked for.
 #[derive(Debug)]
@@ -31,15 +29,15 @@ pub(crate) struct Thumbnails {
 }
 
 impl Thumbnails {
-    /// Starts the thread; it ends with this value. `wake` is called whenever a picture has come.
-    pub(crate) fn start(gpu: Arc<Gpu>, wake: impl Fn() + Send + 'static) -> io::Result<Self> {
+    /// Starts the thread on an adapter; it ends with this value. `wake` is called whenever a picture has come.
+    pub(crate) fn start(options: GpuOptions, wake: impl Fn() + Send + 'static) -> io::Result<Self> {
         let (orders, received) = channel();
         let (sender, drawn) = channel();
         let work = move || {
-            let mut renderer = Renderer::new(&gpu, RendererConfig::default());
+            let mut easel = Easel::new(&options).inspect_err(|error| tracing::warn!(%error, "no small pictures"));
             for (index, scene) in received {
-                let target = renderer.as_mut().ok().and_then(|renderer| draw(&gpu, renderer, &scene));
-                if sender.send((index, target)).is_err() {
+                let picture = easel.as_mut().ok().and_then(|easel| easel.draw(&scene));
+                if sender.send((index, picture)).is_err() {
                     return;
                 }
                 wake();
@@ -64,15 +62,30 @@ impl Thumbnails {
     }
 }
 
-fn draw(gpu: &Gpu, renderer: &mut Renderer, scene: &Scene) -> Option<FrameTarget> {
-    try_draw(gpu, renderer, scene)
-        .inspect_err(|error| tracing::warn!(%error, title = scene.title, "a small picture cannot be drawn"))
-        .ok()
+/// What draws them.
+struct Easel {
+    gpu: Gpu,
+    renderer: Renderer,
 }
 
-fn try_draw(gpu: &Gpu, renderer: &mut Renderer, scene: &Scene) -> Result<FrameTarget, RenderError> {
-    let mut target = FrameTarget::new(gpu, SIZE_PX, RendererConfig::default())?;
-    let submission = renderer.render(gpu, &coarse(scene), &mut target)?;
-    gpu.wait(submission)?;
-    Ok(target)
+impl Easel {
+    fn new(options: &GpuOptions) -> Result<Self, RenderError> {
+        let gpu = Gpu::open(options)?;
+        let renderer = Renderer::new(&gpu, RendererConfig::default())?;
+        Ok(Self { gpu, renderer })
+    }
+
+    fn draw(&mut self, scene: &Scene) -> Option<ColorImage> {
+        self.try_draw(scene)
+            .inspect_err(|error| tracing::warn!(%error, title = scene.title, "a small picture cannot be drawn"))
+            .ok()
+    }
+
+    fn try_draw(&mut self, scene: &Scene) -> Result<ColorImage, RenderError> {
+        let mut target = FrameTarget::new(&self.gpu, SIZE_PX, RendererConfig::default())?;
+        let submission = self.renderer.render(&self.gpu, &coarse(scene), &mut target)?;
+        self.gpu.wait(submission)?;
+        let pixels = target.read_picture8(&self.gpu)?;
+        Ok(ColorImage::from_rgba_unmultiplied(SIZE_PX.map(|side| side as usize), pixels.as_flattened()))
+    }
 }

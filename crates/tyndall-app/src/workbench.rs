@@ -153,6 +153,7 @@ impl Workbench {
             ui.label("This window has no graphics device.");
             return;
         };
+        stage.set_steps_on(self.desert.steps_on);
         stage.set_sand_under_way(self.desert.is_playing || self.desert_tools.is_held());
         let is_playing = self.time.playback.is_playing || self.clouds.is_playing || self.desert.is_playing;
         let pointed = viewport::show(

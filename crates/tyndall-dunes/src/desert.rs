@@ -7,9 +7,11 @@ mod params;
 mod simulation;
 mod source;
 mod state;
+mod stepper;
 
 pub use inputs::DesertInputs;
 pub use params::DesertParams;
 pub use simulation::DesertSimulation;
 pub use source::DesertSource;
 pub use state::state_step;
+pub use stepper::{DuneStepper, SteppedBy};

@@ -53,7 +53,7 @@ pub mod wind;
 pub mod wind_rose;
 
 pub use desert::by_hand;
-pub use desert::{DesertInputs, DesertParams, DesertSimulation, DesertSource, state_step};
+pub use desert::{DesertInputs, DesertParams, DesertSimulation, DesertSource, DuneStepper, SteppedBy, state_step};
 pub use edges::Edges;
 pub use error::DuneError;
 pub use lattice::Lattice;

@@ -4,7 +4,9 @@
 //! - [`GpuDunes`]: the slab model with all that the CPU has: shadow, speed-up, lee, plants, walls, rock that wears, open
 //!   edges with their ledger. The classic rule of Onoue and Nishita 2000 stays on the CPU and is refused here.
 //!
-//! Both are made from an automaton in main memory, run, and read back into one, on which everything else is asked: mass,
+//! - [`GpuStepper`]: the steps of a scene's dunes for [`DesertSource`](tyndall_dunes::DesertSource).
+//!
+//! The first two are made from an automaton in main memory, run, and read back into one, on which everything else is asked: mass,
 //! hash, slopes, export ([`SandDevice`](tyndall_dunes::SandDevice)). Renderers bind `heights` straight away.
 //!
 //! ```no_run
@@ -38,8 +40,10 @@ mod error;
 pub mod gpu_data;
 mod job;
 mod ripples;
+mod stepper;
 mod steps;
 
 pub use dunes::GpuDunes;
 pub use error::GpuSimError;
 pub use ripples::GpuRipples;
+pub use stepper::GpuStepper;

@@ -24,6 +24,13 @@ pub struct GpuOptions {
     pub max_memory_bytes: Option<u64>,
 }
 
+impl From<&AdapterReport> for GpuOptions {
+    /// Another device of the same adapter: what two threads submit to one device may be tracked in the wrong order by wgpu.
+    fn from(adapter: &AdapterReport) -> Self {
+        Self { adapter: AdapterChoice::Name(adapter.name.clone()), max_memory_bytes: None }
+    }
+}
+
 /// An open device. Clones share device, budget and error state.
 #[derive(Clone, Debug)]
 pub struct Gpu {

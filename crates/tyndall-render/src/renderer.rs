@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
+use tyndall_dunes::DuneStepper;
 use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, Gpu, PassTimer, PassTiming};
 use tyndall_scattering::dome::Dome;
@@ -285,6 +286,11 @@ impl Renderer {
     /// Chooses a state from which the desert's simulation starts in place of step 0, where the scene's step is not before it.
     pub fn start_desert_from(&mut self, state: Option<NamedArrays>) {
         self.desert.start_from(state);
+    }
+
+    /// Chooses who makes the dunes' steps; the processor unless chosen, and where the device cannot. The sand is the same.
+    pub fn set_dune_stepper(&mut self, device: Option<Box<dyn DuneStepper>>) {
+        self.desert.set_stepper(device);
     }
 
     /// Chooses whether the desert's sand is under way, so that each picture of it is soon followed by another. The sky's openness

@@ -19,6 +19,7 @@ use super::{
 use crate::{
     desert_clock::{DesertClock, SPEEDS},
     desert_tools::DesertTools,
+    steps_on::StepsOn,
 };
 
 /// Ranges of the brush's radius and depth (m).
@@ -204,6 +205,14 @@ fn transport(ui: &mut Ui, scene: &mut Scene, playing: &mut DesertClock, progress
         let response = ui.add(slider);
         rename(ui, &response, "Desert: speed");
         response.on_hover_text("Steps of the wind in a second of yours.");
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.label("Steps on").on_hover_text("Processor and graphics make the same sand, bit for bit.");
+        for choice in StepsOn::ALL {
+            let button = ui.selectable_value(&mut playing.steps_on, choice, choice.title());
+            rename(ui, &button, &format!("Desert: steps on {}", choice.title().to_lowercase()));
+        }
     });
     let made = progress.and_then(|progress| progress.report.as_ref()).map(|report| report.step);
     match made {

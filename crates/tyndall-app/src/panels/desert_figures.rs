@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use egui::{Color32, CornerRadius, Rect, Sense, Stroke, Ui, pos2, vec2};
+use tyndall_dunes::SteppedBy;
 use tyndall_render::desert::report::DesertReport;
 use tyndall_scene::{DuneModel, Scene};
 
@@ -37,9 +38,18 @@ pub(super) fn show(ui: &mut Ui, report: &DesertReport, scene: &Scene, clock: &De
         ("Lee slopes", format!("{:.1}° (95 % are below)", report.slopes.lee_p95_deg)),
         ("Windward", format!("{:.1}° (half are below)", report.slopes.windward_median_deg)),
         ("Heaps", format!("{}, {:.0} % of the ground bare", report.heaps, 100.0 * report.bare_share)),
+        ("Steps by", stepped_by(&report.stepped_by)),
         ("Step", format!("{step}, for the picture {} ms", short(ms(report.times.picture)))),
     ];
     table(ui, "figures of the desert", &rows);
+}
+
+fn stepped_by(by: &SteppedBy) -> String {
+    match by {
+        SteppedBy::Processor => "processor".to_owned(),
+        SteppedBy::Device => "graphics".to_owned(),
+        SteppedBy::ProcessorInstead(reason) => format!("processor: {reason}"),
+    }
 }
 
 fn ms(time: Duration) -> f64 {

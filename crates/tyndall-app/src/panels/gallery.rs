@@ -1,8 +1,8 @@
 //! The gallery: the scenes that come with Tyndall in chapters, each with a small picture of itself.
 
-use egui::{Image, Label, RichText, Role, ScrollArea, Sense, TextureId, Ui, UiBuilder, WidgetInfo, vec2};
-use egui_wgpu::wgpu;
-use tyndall_render::FrameTarget;
+use egui::{
+    Image, Label, RichText, Role, ScrollArea, Sense, TextureHandle, TextureOptions, Ui, UiBuilder, WidgetInfo, vec2,
+};
 use tyndall_scene::{Preset, Scene, presets};
 
 use crate::{
@@ -30,8 +30,8 @@ struct Entry {
 enum Picture {
     /// Not yet drawn.
     Due,
-    /// The target keeps the texture alive.
-    Drawn(TextureId, #[expect(dead_code, reason = "owns the texture that egui shows")] Box<FrameTarget>),
+    /// Drawn and given to egui.
+    Drawn(TextureHandle),
     /// The scene or the GPU refused.
     Failed,
 }
@@ -49,19 +49,14 @@ impl Default for Gallery {
 
 impl Gallery {
     /// Forgets the pictures, as their device is gone.
-    pub(crate) fn forget(&mut self, stage: &Stage) {
+    pub(crate) fn forget(&mut self) {
         self.thumbnails = None;
-        for entry in &mut self.entries {
-            if let Picture::Drawn(texture, _) = entry.picture {
-                stage.state().renderer.write().free_texture(&texture);
-            }
-            entry.picture = Picture::Due;
-        }
+        self.entries.iter_mut().for_each(|entry| entry.picture = Picture::Due);
     }
 
     /// Shows the gallery; the preset that was clicked.
     pub(crate) fn show(&mut self, ui: &mut Ui, stage: &Stage) -> Option<Preset> {
-        self.take_drawn(stage);
+        self.take_drawn(ui.ctx());
         self.order_next(ui.ctx(), stage);
         let list = |ui: &mut Ui| {
             let chapters = Chapter::ALL.into_iter().map(|chapter| self.chapter(ui, chapter));
@@ -84,12 +79,11 @@ impl Gallery {
     }
 
     /// Gives egui the texture of the picture that has come.
-    fn take_drawn(&mut self, stage: &Stage) {
-        let Some((index, target)) = self.thumbnails.as_mut().and_then(Thumbnails::take) else { return };
-        self.entries[index].picture = target.map_or(Picture::Failed, |target| {
-            let (state, view, filter) = (stage.state(), target.picture().view(), wgpu::FilterMode::Linear);
-            let texture = state.renderer.write().register_native_texture(&state.device, view, filter);
-            Picture::Drawn(texture, Box::new(target))
+    fn take_drawn(&mut self, ctx: &egui::Context) {
+        let Some((index, picture)) = self.thumbnails.as_mut().and_then(Thumbnails::take) else { return };
+        let entry = &mut self.entries[index];
+        entry.picture = picture.map_or(Picture::Failed, |picture| {
+            Picture::Drawn(ctx.load_texture(entry.preset.name, picture, TextureOptions::LINEAR))
         });
     }
 
@@ -111,7 +105,7 @@ impl Gallery {
         };
         if self.thumbnails.is_none() {
             let ctx = ctx.clone();
-            self.thumbnails = Thumbnails::start(engine.gpu.clone(), move || ctx.request_repaint()).ok();
+            self.thumbnails = Thumbnails::start(engine.gpu.adapter().into(), move || ctx.request_repaint()).ok();
         }
         match &mut self.thumbnails {
             Some(thumbnails) => thumbnails.order(index, scene),
@@ -128,8 +122,8 @@ fn card(ui: &mut Ui, entry: &Entry) -> bool {
             ui.set_width(SIZE_PT.x);
             ui.spacing_mut().item_spacing.y = 4.0;
             match &entry.picture {
-                Picture::Drawn(texture, _) => {
-                    ui.add(Image::new((*texture, SIZE_PT)).corner_radius(4).alt_text(entry.preset.title.as_str()));
+                Picture::Drawn(texture) => {
+                    ui.add(Image::new((texture.id(), SIZE_PT)).corner_radius(4).alt_text(entry.preset.title.as_str()));
                 }
                 Picture::Due | Picture::Failed => {
                     let (rect, _) = ui.allocate_exact_size(SIZE_PT, Sense::empty());

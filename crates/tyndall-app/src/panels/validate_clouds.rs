@@ -1,7 +1,5 @@
 //! The error meter of clouds: how far their picture is from random walks, beside the bounds that it is built for.
 
-use std::sync::Arc;
-
 use egui::{Grid, ProgressBar, Ui};
 use tyndall_gpu::Gpu;
 use tyndall_render::clouds::comparison::CloudVerdict;
@@ -15,7 +13,7 @@ use crate::error_meter::Thoroughness;
 pub(crate) fn show(
     ui: &mut Ui,
     meter: &mut CloudMeter,
-    (gpu, thoroughness): (Option<&Arc<Gpu>>, Thoroughness),
+    (gpu, thoroughness): (Option<&Gpu>, Thoroughness),
     scene: &Scene,
 ) {
     let (Some(subject), Some(gpu)) = (CloudSubject::of(scene), gpu) else { return };
@@ -32,7 +30,7 @@ pub(crate) fn show(
                     follows light through the same cells at random.";
         if ui.button("Compare clouds").on_hover_text(hint).clicked() {
             let ctx = ui.ctx().clone();
-            let drawn = (Arc::clone(gpu), subject);
+            let drawn = (gpu.adapter().into(), subject);
             cloud_meter::start(meter, drawn, thoroughness, move || ctx.request_repaint());
         }
     });

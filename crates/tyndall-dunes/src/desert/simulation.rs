@@ -1,9 +1,12 @@
 //! The field of a scene: from its parameters to its steps, and what is asked of it.
 
+use std::error::Error;
+
 use super::ages::Ages;
 use super::by_hand::Touch;
 use super::inputs::DesertInputs;
 use super::params::DesertParams;
+use super::stepper::DuneStepper;
 use crate::DuneError;
 use crate::brush::check_stroke;
 use crate::direction::{DIRECTION_ONE, Direction};
@@ -76,6 +79,25 @@ impl DesertSimulation {
             }
             self.lay_hands_on();
         }
+    }
+
+    /// Makes steps on a device. Fields that note when cells move are looked at after every step, and stay on the processor.
+    ///
+    /// # Errors
+    /// As [`DuneStepper::advance`]; the desert then stands at one of the steps before.
+    pub fn advance_by(&mut self, device: &mut dyn DuneStepper, steps: u32) -> Result<(), Box<dyn Error + Send + Sync>> {
+        if self.ages.is_some() {
+            self.advance(steps);
+            return Ok(());
+        }
+        let last = self.step_count() + steps;
+        while self.step_count() < last {
+            let now = self.step_count();
+            let next = self.inputs.touches.get(self.touched).map_or(last, |touch| touch.step.clamp(now + 1, last));
+            self.field = device.advance(&self.field, next - now)?;
+            self.lay_hands_on();
+        }
+        Ok(())
     }
 
     /// Makes the touches that are due.

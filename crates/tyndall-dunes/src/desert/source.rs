@@ -2,6 +2,7 @@
 
 use tyndall_core::array::NamedArrays;
 
+use super::stepper::{DuneStepper, SteppedBy, Stepping};
 use super::{DesertInputs, DesertParams, DesertSimulation, state_step};
 use crate::DuneError;
 
@@ -20,19 +21,32 @@ fn leads_to(known: &DesertSimulation, inputs: &DesertInputs, steps: u32) -> bool
 }
 
 /// Makes the field of a step, and goes on from there when a later one of the same desert is asked for.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct DesertSource {
     start: Option<NamedArrays>,
     simulation: Option<DesertSimulation>,
     /// Deserts before the last strokes by hand, the oldest first.
     before_strokes: Vec<DesertSimulation>,
     keeps_ages: bool,
+    stepping: Stepping,
 }
 
 impl DesertSource {
     /// Chooses a state to start from when the step that is asked for is not before it, in place of step 0.
     pub fn start_from(&mut self, state: Option<NamedArrays>) {
-        *self = Self { start: state, keeps_ages: self.keeps_ages, ..Self::default() };
+        let stepping = std::mem::take(&mut self.stepping);
+        *self = Self { start: state, keeps_ages: self.keeps_ages, stepping, ..Self::default() };
+    }
+
+    /// Chooses who makes steps; the processor unless chosen, and where the device cannot.
+    pub fn set_stepper(&mut self, device: Option<Box<dyn DuneStepper>>) {
+        self.stepping = Stepping::new(device);
+    }
+
+    /// Who makes the steps.
+    #[must_use]
+    pub fn stepped_by(&self) -> &SteppedBy {
+        self.stepping.by()
     }
 
     /// Notes when each cell moves last, in all that is made from here on; see [`DesertSimulation::keep_ages`].
@@ -58,6 +72,7 @@ impl DesertSource {
             known
         } else {
             self.before_strokes.clear();
+            self.stepping.try_again();
             self.begin(params, inputs, steps)?
         };
         self.keep_before_stroke(&simulation, inputs);
@@ -67,7 +82,7 @@ impl DesertSource {
             if is_stale(simulation.step_count()) {
                 return Ok(None);
             }
-            simulation.advance(1);
+            self.stepping.advance(simulation, steps - simulation.step_count());
         }
         Ok(Some(simulation))
     }

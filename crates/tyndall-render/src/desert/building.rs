@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
+use tyndall_dunes::DuneStepper;
 
 use super::maker::{BedMaker, BedRequest, MadeBed};
 use crate::RenderError;
@@ -70,6 +71,15 @@ impl Making {
         }
     }
 
+    /// Chooses who makes steps; the processor unless chosen.
+    pub(super) fn set_stepper(&mut self, device: Option<Box<dyn DuneStepper>>) {
+        match self {
+            Self::Blocking(maker) => maker.set_stepper(device),
+            // Without a thread there is no sand anyway.
+            Self::Background(worker) => drop(worker.orders.send(Order::Step(device))),
+        }
+    }
+
     /// What has been made since the last call; `wanted` is what the frame lacks.
     pub(super) fn next(&mut self, wanted: Option<&BedRequest>) -> Option<Made> {
         match self {
@@ -103,6 +113,8 @@ enum Order {
     Keep(Option<Arc<dyn TableStore>>),
     /// To start fields from a state.
     Start(Option<NamedArrays>),
+    /// To let a device make steps, or the processor.
+    Step(Option<Box<dyn DuneStepper>>),
     /// To make a bed; the number of the request is its place among all.
     Make(u64, Box<BedRequest>),
 }
@@ -168,13 +180,14 @@ impl Worker {
     }
 }
 
-/// The newest of the beds asked for so far; stores and states to start from are passed on.
+/// The newest of the beds asked for so far; what else it is told is passed on.
 fn newest_of(maker: &mut BedMaker, first: Order, received: &Receiver<Order>) -> Option<(u64, BedRequest)> {
     let mut newest = None;
     for order in std::iter::once(first).chain(received.try_iter()) {
         match order {
             Order::Keep(store) => maker.set_store(store),
             Order::Start(state) => maker.start_from(state),
+            Order::Step(device) => maker.set_stepper(device),
             Order::Make(number, request) => newest = Some((number, *request)),
         }
     }

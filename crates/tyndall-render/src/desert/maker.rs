@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
-use tyndall_dunes::{DesertInputs, DesertParams, DesertSimulation, DesertSource};
+use tyndall_dunes::{DesertInputs, DesertParams, DesertSimulation, DesertSource, DuneStepper};
 use tyndall_scene::{DesertSceneParams, RippleParams, Scene};
 
 use super::bed::Bed;
@@ -104,6 +104,11 @@ impl BedMaker {
         self.fields.start_from(state);
     }
 
+    /// Chooses who makes steps; the processor unless chosen.
+    pub(super) fn set_stepper(&mut self, device: Option<Box<dyn DuneStepper>>) {
+        self.fields.set_stepper(device);
+    }
+
     /// What a request asks for; `None` when `is_stale`, which is asked between steps with their number, says that nobody
     /// waits for it.
     pub(super) fn make(
@@ -144,12 +149,13 @@ impl BedMaker {
             Err(error) => return Some(Err(error)),
         };
         let times = DesertTimes { step: self.step_time, picture: Duration::ZERO };
+        let stepped_by = self.fields.stepped_by().clone();
         let known = self.figures.take().filter(|(found, _)| is_quick && found.elapsed() < FIGURES_EVERY);
         let mut report = match &known {
             Some((_, known)) => DesertReport::with_figures_of(known, simulation, times),
             None => DesertReport::new(simulation, times),
         };
-        report.times.picture = started.elapsed();
+        (report.times.picture, report.stepped_by) = (started.elapsed(), stepped_by);
         let report = Arc::new(report);
         self.figures = Some(known.unwrap_or_else(|| (Instant::now(), Arc::clone(&report))));
         Some(Ok(MadeBed { bed: Arc::new(bed), tile, report }))

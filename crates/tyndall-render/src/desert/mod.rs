@@ -21,6 +21,7 @@ pub mod mesh;
 pub mod reflection;
 pub mod report;
 pub mod ripple_tile;
+mod shared_stepper;
 mod source;
 mod streaks;
 pub mod sun_horizon;
@@ -30,6 +31,7 @@ use std::sync::Arc;
 
 use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
+use tyndall_dunes::DuneStepper;
 use tyndall_gpu::wgpu::{self, BufferUsages};
 use tyndall_gpu::{Buffer, ComputePipeline, Gpu, PassTimer, RenderPipeline, RenderPipelineDesc, Shader, Texture};
 use tyndall_scene::Scene;
@@ -139,6 +141,11 @@ impl DesertRenderer {
     /// Chooses a state to start from in place of step 0, for all steps that are not before it.
     pub fn start_from(&mut self, state: Option<NamedArrays>) {
         self.source.start_from(state);
+    }
+
+    /// Chooses who makes the dunes' steps: the processor, or a device that gives the same bits.
+    pub fn set_stepper(&mut self, device: Option<Box<dyn DuneStepper>>) {
+        self.source.set_stepper(device);
     }
 
     /// Chooses whether pictures of the desert are soon followed by others; see [`Bed::quick`].

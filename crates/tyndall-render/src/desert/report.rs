@@ -5,7 +5,7 @@ use std::time::Duration;
 use tyndall_dunes::measure::{Bodies, Crests, HeightGrid, WindSlopes, bodies, crests, wind_slopes};
 use tyndall_dunes::slab::DUNE_QUANTA_PER_CELL;
 use tyndall_dunes::wind::Wind;
-use tyndall_dunes::{DesertSimulation, Ledger, SandSimulation as _};
+use tyndall_dunes::{DesertSimulation, Ledger, SandSimulation as _, SteppedBy};
 
 /// Least ground (cells) of a heap that counts.
 const LEAST_HEAP: usize = 30;
@@ -39,6 +39,8 @@ pub struct DesertReport {
     pub wind_toward_deg: f64,
     /// How long it took.
     pub times: DesertTimes,
+    /// Who made the steps.
+    pub stepped_by: SteppedBy,
 }
 
 /// How long the parts of making a bed took.
@@ -94,6 +96,7 @@ impl DesertReport {
             winds: field.winds().winds().to_vec(),
             wind_toward_deg: simulation.wind_toward_deg(),
             times,
+            stepped_by: SteppedBy::default(),
         }
     }
 

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use tyndall_core::array::NamedArrays;
 use tyndall_core::table_store::TableStore;
+use tyndall_dunes::DuneStepper;
 use tyndall_scene::Scene;
 
 use super::bed::Bed;
@@ -11,6 +12,7 @@ use super::building::Making;
 use super::maker::{BedRequest, MadeBed};
 use super::report::DesertReport;
 use super::ripple_tile::RippleTile;
+use super::shared_stepper::SharedStepper;
 use crate::RenderError;
 use crate::sky::TableBuilding;
 
@@ -34,6 +36,7 @@ pub(super) struct BedSource {
     is_quick: bool,
     store: Option<Arc<dyn TableStore>>,
     start: Option<NamedArrays>,
+    stepper: Option<SharedStepper>,
     shown: Option<(BedRequest, MadeBed)>,
     /// What could not be made, and why.
     refused: Option<(BedRequest, Arc<RenderError>)>,
@@ -53,6 +56,17 @@ impl BedSource {
         self.making = Making::new(self.building.clone());
         self.making.set_store(self.store.clone());
         self.making.start_from(self.start.clone());
+        self.pass_on_stepper();
+    }
+
+    /// Chooses who makes steps; the processor unless chosen.
+    pub(super) fn set_stepper(&mut self, device: Option<Box<dyn DuneStepper>>) {
+        self.stepper = device.map(SharedStepper::new);
+        self.pass_on_stepper();
+    }
+
+    fn pass_on_stepper(&mut self) {
+        self.making.set_stepper(self.stepper.clone().map(|device| Box::new(device) as _));
     }
 
     /// Chooses a state that fields start from in place of step 0; what was made from another is forgotten.
