@@ -11,6 +11,7 @@ mod cloud_shadows;
 mod clouds;
 mod desert;
 mod desert_mesh;
+mod desert_playing;
 mod desert_wind;
 mod dome;
 mod gpu_orders;

@@ -216,8 +216,8 @@ impl Renderer {
     /// The scene with its camera at its height over what it stands on: the landscape, or the sand.
     fn grounded(&mut self, scene: &Scene) -> Result<Scene, RenderError> {
         let mut scene = scene.grounded();
-        if let Some(bed) = self.desert.simulate(&scene)? {
-            scene.camera.altitude_m += bed.at(scene.camera.x_m, scene.camera.y_m)[0];
+        if let Some(ground_m) = self.desert.simulate(&scene)? {
+            scene.camera.altitude_m += ground_m;
         }
         Ok(scene)
     }

@@ -52,6 +52,9 @@ use textures::{BedTextures, light_texture, sampler, tile_textures};
 /// Bytes of a vertex.
 const VERTEX_BYTES: u64 = 16;
 
+/// How far the sand under a camera may move before the camera follows, while sand is under way, of the camera's height over it.
+const QUICK_STEP: f64 = 0.05;
+
 /// What a map of light is of: the bed's revision, the direction to sun or moon (azimuth from east, elevation), and whether it
 /// was made quickly.
 type LightKey = (u64, [f64; 2], bool);
@@ -74,6 +77,8 @@ pub struct DesertRenderer {
     vertices: Option<Buffer>,
     /// What the vertices were computed for, and from where.
     holds: Option<(u64, Desert, [f32; 3])>,
+    /// Bits of the place where the camera stands, and the altitude (m) of the sand there.
+    stands: Option<([u64; 2], f64)>,
     /// Of meshes of sand at rest.
     fineness: Fineness,
 }
@@ -129,6 +134,7 @@ impl DesertRenderer {
             light: None,
             vertices: None,
             holds: None,
+            stands: None,
             fineness: Fineness::Fine,
         })
     }
@@ -169,13 +175,23 @@ impl DesertRenderer {
         self.source.progress()
     }
 
-    /// Simulates the scene's desert up to its step, and forgets the last one when the scene has none.
+    /// Simulates the scene's desert up to its step, and forgets the last one when the scene has none. Returns the altitude (m)
+    /// of the sand under the camera.
     ///
     /// # Errors
     /// When parameters do not fit together or a file cannot be read.
-    pub fn simulate(&mut self, scene: &Scene) -> Result<Option<&Bed>, RenderError> {
+    pub fn simulate(&mut self, scene: &Scene) -> Result<Option<f64>, RenderError> {
         self.source.update(scene)?;
-        Ok(self.source.bed())
+        let camera = &scene.camera;
+        let place = [camera.x_m, camera.y_m].map(f64::to_bits);
+        let ground_m = self.source.bed().map(|bed| bed.at(camera.x_m, camera.y_m)[0]);
+        let held_m = self.stands.filter(|(held, _)| self.source.is_quick() && *held == place).map(|(_, held_m)| held_m);
+        let stands_m = ground_m.map(|ground_m| {
+            // Air and light of all the picture would have to be made anew for each millimetre.
+            held_m.filter(|held_m| (held_m - ground_m).abs() < QUICK_STEP * camera.altitude_m).unwrap_or(ground_m)
+        });
+        self.stands = stands_m.map(|stands_m| (place, stands_m));
+        Ok(stands_m)
     }
 
     /// How far the light on the desert of the last simulation must reach.
@@ -183,7 +199,7 @@ impl DesertRenderer {
     pub fn reach(&self, scene: &Scene, view: View, size_px: [u32; 2]) -> Option<SkyLightReach> {
         let bed = self.source.bed()?;
         let mesh = self.mesh(scene, view, size_px, bed);
-        Some(SkyLightReach { distance_m: mesh.far_radius_m, top_altitude_m: bed.highest_m() })
+        Some(SkyLightReach { distance_m: mesh.far_radius_m, top_altitude_m: self.highest_m(bed) })
     }
 
     /// Records what the desert of a grounded scene needs before it is drawn; `None` without one.
@@ -201,7 +217,11 @@ impl DesertRenderer {
         let (Some(bed), Some(tile)) = (self.source.bed(), self.source.tile()) else { return Ok(None) };
         let mesh = self.mesh(scene, view, size_px, bed);
         let lamp = Lamp::of(scene)?;
-        let uniform = Desert::new(scene, bed.heights.size(), tile.scale, &mesh, lamp.is_moon);
+        let mut uniform = Desert::new(scene, bed.heights.size(), tile.scale, &mesh, lamp.is_moon);
+        if self.source.is_quick() {
+            // Slopes of ripples alone show that they are there.
+            uniform.relief = 0.0;
+        }
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         self.update_maps(gpu, lamp)?;
         self.update_mesh(gpu, encoder, timer, (scene, &mesh, &uniform), surroundings.frame)?;
@@ -224,15 +244,17 @@ impl DesertRenderer {
         let toward = [north.atan2(east), up.atan2(east.hypot(north))];
         let key = (of_bed, toward, self.source.is_quick());
         if self.light.as_ref().is_none_or(|(held, _)| *held != key) {
-            let map = light::light_map(bed, toward[0], toward[1])?;
-            // Horizons of the field's own cells do for a moment.
-            let (fineness, map) = if self.source.is_quick() {
-                (1, map)
+            // Horizons of wider cells do for a moment.
+            let (size, map) = if self.source.is_quick() {
+                light::quick_light_map(bed, toward[0], toward[1])?
             } else {
-                let fineness = sun_horizon::fineness(bed.heights.size());
-                (fineness, sun_horizon::with_fine_horizons(bed, &map, toward[0], fineness)?)
+                let size = bed.heights.size();
+                let fineness = sun_horizon::fineness(size);
+                let map = light::light_map(bed, toward[0], toward[1])?;
+                let map = sun_horizon::with_fine_horizons(bed, &map, toward[0], fineness)?;
+                (size.map(|count| count * fineness), map)
             };
-            self.light = Some((key, light_texture(gpu, bed, fineness, &map)?));
+            self.light = Some((key, light_texture(gpu, size, &map)?));
         }
         Ok(())
     }
@@ -331,11 +353,17 @@ impl DesertRenderer {
         Ok(())
     }
 
+    /// Altitude (m) that no sand is above; while sand is under way in steps, so that what reaches so far need not be made anew.
+    fn highest_m(&self, bed: &Bed) -> f64 {
+        let highest_m = bed.highest_m();
+        if self.source.is_quick() { highest_m.max(1.0).log2().ceil().exp2() } else { highest_m }
+    }
+
     fn mesh(&self, scene: &Scene, view: View, size_px: [u32; 2], bed: &Bed) -> DesertMesh {
         let camera = &scene.camera;
         let clearance_m = camera.altitude_m - bed.at(camera.x_m, camera.y_m)[0];
         let fineness = if self.source.is_quick() { Fineness::Quick } else { self.fineness };
-        DesertMesh::new((scene, view, size_px), (clearance_m, bed.highest_m()), fineness)
+        DesertMesh::new((scene, view, size_px), (clearance_m, self.highest_m(bed)), fineness)
     }
 
     /// Draws the desert; first of all, for it hides most of what is behind it.

@@ -37,9 +37,9 @@ impl BedTextures {
     }
 }
 
-/// The map of a sun's light, `fineness` times as fine as the field.
-pub(super) fn light_texture(gpu: &Gpu, bed: &Bed, fineness: usize, light: &[[f32; 4]]) -> Result<Texture, RenderError> {
-    of_halves(gpu, "light on the desert", bed.heights.size().map(|count| count * fineness), light)
+/// The map of a sun's light, of any size over the field.
+pub(super) fn light_texture(gpu: &Gpu, size: [usize; 2], light: &[[f32; 4]]) -> Result<Texture, RenderError> {
+    of_halves(gpu, "light on the desert", size, light)
 }
 
 /// The tile of ripples: slopes with squares of them, the mixed product, and heights.
