@@ -293,8 +293,9 @@ impl Renderer {
         self.desert.set_stepper(device);
     }
 
-    /// Chooses whether the desert's sand is under way, so that each picture of it is soon followed by another. The sky's openness
-    /// of such a picture is that of coarser cells, and figures of the field are up to half a second old; sand is exact.
+    /// Chooses whether the desert's sand is under way, so that each picture of it is soon followed by another. Light
+    /// on such a picture is that of coarser cells, ripples are slopes alone, the camera follows the sand in small steps, and figures
+    /// of the field are up to half a second old; sand is exact.
     pub fn set_sand_under_way(&mut self, is_under_way: bool) {
         self.desert.set_quick(is_under_way);
     }
