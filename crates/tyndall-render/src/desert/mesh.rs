@@ -8,7 +8,7 @@
 use tyndall_scene::Scene;
 
 use crate::View;
-use crate::landscape::mesh::{Azimuths, azimuths, pixel_rad};
+use crate::landscape::mesh::{Azimuths, azimuths, lowest_elevation, pixel_rad};
 
 /// Most rings, the centre included, and the least.
 const RINGS_MOST: u32 = 1536;
@@ -36,6 +36,8 @@ pub struct DesertMesh {
     pub columns: u32,
     /// Rings, the centre included.
     pub rings: u32,
+    /// The first ring of which something may lie in the picture; those before are below its lower edge.
+    pub first_ring: u32,
     /// Radius of the first ring outside the centre.
     pub centre_radius_m: f64,
     /// Radius of the last ring.
@@ -62,10 +64,19 @@ impl DesertMesh {
         let [ring_px, column_px] = fineness.spacing_px();
         let rings = (far_radius_m / centre_radius_m).ln() / (ring_px * pixel_rad(&frame, view, size_px));
         let Azimuths { first_rad, step_rad, count } = azimuths(&frame, view, size_px, column_px);
+        #[expect(clippy::cast_possible_truncation, reason = "limited to the most rings")]
+        let rings = rings.clamp(f64::from(RINGS_LEAST), f64::from(RINGS_MOST)) as u32;
+        // Sand that is as high as any, in the lowest direction of the picture.
+        let seen_from_m = (frame.position.z - highest_m).max(0.0)
+            * lowest_elevation(&frame, view, size_px).map_or(0.0, |elevation| 1.0 / (-elevation).tan());
+        let growth = (far_radius_m / centre_radius_m).powf(1.0 / f64::from(rings - 2));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "limited to the rings")]
+        let first_ring =
+            ((seen_from_m / centre_radius_m).ln() / growth.ln() - 1.0).clamp(0.0, f64::from(rings - 2)) as u32;
         Self {
             columns: count,
-            #[expect(clippy::cast_possible_truncation, reason = "limited to the most rings")]
-            rings: rings.clamp(f64::from(RINGS_LEAST), f64::from(RINGS_MOST)) as u32,
+            rings,
+            first_ring,
             centre_radius_m,
             far_radius_m,
             first_azimuth_rad: first_rad,
@@ -113,6 +124,26 @@ mod tests {
                 "as far as before"
             );
         }
+    }
+
+    #[test]
+    fn rings_below_the_picture_are_left_out_and_no_others() {
+        let first = |pitch_deg, highest_m| {
+            let mut scene = Scene::default();
+            (scene.camera.altitude_m, scene.camera.pitch_deg) = (36.0, pitch_deg);
+            let mesh = DesertMesh::new((&scene, View::Camera, [320, 180]), (36.0, highest_m), Fineness::Fine);
+            let growth = (mesh.far_radius_m / mesh.centre_radius_m).powf(1.0 / f64::from(mesh.rings - 2));
+            (mesh.first_ring, mesh.centre_radius_m * growth.powi(mesh.first_ring.cast_signed() - 1), growth)
+        };
+        // In the middle of the lower edge, the lowest direction there is.
+        let (ring, radius_m, growth) = first(0.0, 8.0);
+        let nearest_m = 28.0 / (0.5 * Scene::default().camera.field_of_view_deg.to_radians()).tan();
+        assert!(
+            ring > 0 && radius_m < nearest_m && radius_m * growth.powi(3) > nearest_m,
+            "{radius_m} of {nearest_m} m"
+        );
+        assert_eq!(first(0.0, 40.0).0, 0, "sand may stand higher than the camera");
+        assert_eq!(first(-80.0, 8.0).0, 0, "what is right below is in the picture");
     }
 
     #[test]

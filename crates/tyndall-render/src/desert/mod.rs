@@ -116,6 +116,9 @@ impl DesertRenderer {
                 depth: Some(depth),
                 primitive: wgpu::PrimitiveState {
                     topology: wgpu::PrimitiveTopology::TriangleStrip,
+                    // Seen from above strips turn to the left. Slopes that face away are hidden by their crests.
+                    front_face: wgpu::FrontFace::Ccw,
+                    cull_mode: Some(wgpu::Face::Back),
                     ..wgpu::PrimitiveState::default()
                 },
                 constants: &[],
@@ -372,7 +375,7 @@ impl DesertRenderer {
         for (index, group) in (0..).zip(&data.groups) {
             pass.set_bind_group(index, group, &[]);
         }
-        pass.draw(0..2 * data.mesh.columns, 0..data.mesh.rings - 1);
+        pass.draw(0..2 * data.mesh.columns, data.mesh.first_ring..data.mesh.rings - 1);
     }
 }
 

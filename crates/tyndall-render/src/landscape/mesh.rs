@@ -120,6 +120,26 @@ pub(crate) fn pixel_rad(frame: &CameraFrame, view: View, [width_px, height_px]: 
     }
 }
 
+/// Elevation of the lowest direction of a picture, below the horizon; `None` when it shows the nadir, nearly, or no ground,
+/// and where directions say nothing of places.
+pub(crate) fn lowest_elevation(frame: &CameraFrame, view: View, size_px: [u32; 2]) -> Option<f64> {
+    if view == View::Panorama || frame.orthographic_m.is_some() || azimuth_range(frame, view, size_px).is_none() {
+        return None;
+    }
+    let half = [frame.tan_half_view * f64::from(size_px[0]) / f64::from(size_px[1]), frame.tan_half_view];
+    let lowest = edge_directions(frame, half).map(|direction| direction.z.asin()).fold(0.0, f64::min);
+    (lowest < -1e-3).then_some(lowest)
+}
+
+/// Directions along the edges of a picture whose half sides are seen under these tangents.
+fn edge_directions(frame: &CameraFrame, half: [f64; 2]) -> impl Iterator<Item = DVec3> {
+    let edges = (0..=EDGE_POINTS).flat_map(|k| {
+        let along = 2.0 * f64::from(k) / f64::from(EDGE_POINTS) - 1.0;
+        [[along, 1.0], [along, -1.0], [1.0, along], [-1.0, along]]
+    });
+    edges.map(move |[x, y]| (frame.forward + x * half[0] * frame.right + y * half[1] * frame.up).normalize())
+}
+
 /// Azimuths at the picture's edges, which enclose those inside it; `None` when it shows zenith or nadir, or nearly.
 fn azimuth_range(frame: &CameraFrame, view: View, [width_px, height_px]: [u32; 2]) -> Option<[f64; 2]> {
     let aspect = f64::from(width_px) / f64::from(height_px);
@@ -132,14 +152,9 @@ fn azimuth_range(frame: &CameraFrame, view: View, [width_px, height_px]: [u32; 2
     if view == View::Panorama || shows(DVec3::Z) || shows(DVec3::NEG_Z) {
         return None;
     }
-    let edges = (0..=EDGE_POINTS).flat_map(|k| {
-        let along = 2.0 * f64::from(k) / f64::from(EDGE_POINTS) - 1.0;
-        [[along, 1.0], [along, -1.0], [1.0, along], [-1.0, along]]
-    });
     let centre = frame.forward.y.atan2(frame.forward.x);
     let mut range = [centre, centre];
-    for [x, y] in edges {
-        let direction = (frame.forward + x * half[0] * frame.right + y * half[1] * frame.up).normalize();
+    for direction in edge_directions(frame, half) {
         if direction.x.hypot(direction.y) < 0.05 {
             return None;
         }
