@@ -33,7 +33,7 @@ fn blowing_radiance(direction: vec3<f32>, light: BlownLight, place: vec2<f32>, a
     let taken = 1.0 - light.transmittance;
     let lamp = light.direct * shade.direct;
     var radiance = sunlight * (lamp * blowing_phase(dot(direction, sun))) + around * taken;
-    // A loop, as software adapters run both sides of a branch.
+    // A loop, as lavapipe 22.3 fails in shaders that branch on several uniform buffers.
     for (var nights = moon.skylight; nights > 0u; nights--) { // loops: 1
         radiance += moonlight_on_sand(lamp * blowing_phase(dot(direction, moon.direction)), 0.5 / SKY_PI * taken);
     }

@@ -100,7 +100,7 @@ fn dune_radiance(pixel: DunePixel, albedo: vec3<f32>) -> vec3<f32> {
     let open = clamp(light.y, 0.0, 1.0);
     let from_around = mix(thrown, sky, open);
     var from_moon = vec3<f32>(0.0);
-    // A loop, as software adapters run both sides of a branch.
+    // A loop, as lavapipe 22.3 fails in shaders that branch on several uniform buffers.
     for (var nights = moon.skylight; nights > 0u; nights--) { // loops: 1
         from_moon += moonlight_on_sand(seen * dune_facing(pixel, moon.direction), open * (0.5 + 0.5 * n.z));
     }

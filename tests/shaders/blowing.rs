@@ -1,11 +1,11 @@
 //! Marching through sand in the air: optical depth, energy, light and shade.
 
 use half::f16;
-use tyndall_gpu::{ComputePipeline, GpuError, Shader, wgpu};
+use tyndall_gpu::{GpuError, wgpu};
 use tyndall_render::desert::gpu_data::{Blowing, Desert, grain_albedo};
 use tyndall_tests::gpu;
 
-use crate::relief::texture;
+use crate::rays::{answers, texture};
 
 /// A flat layer: its optical depth straight down, mean height and scale (m), and the height over which the lamp shines.
 #[derive(Clone, Copy)]
@@ -36,14 +36,9 @@ fn blowing_main(@builtin(global_invocation_id) id: vec3<u32>) {
 /// What rays through a layer find.
 fn seen(layer: Layer, inputs: &[[f32; 4]]) -> Result<Vec<[f32; 4]>, GpuError> {
     let gpu = gpu();
-    let pipeline = ComputePipeline::new(gpu, &Shader::from_source(gpu, "test.wgsl", TEXT)?, "blowing_main", &[])?;
-    let storage = wgpu::BufferUsages::STORAGE;
-    let [from, to] = [wgpu::BufferUsages::COPY_DST, wgpu::BufferUsages::COPY_SRC];
-    let xs = gpu.buffer("inputs", 16 * inputs.len() as u64, storage | from)?;
-    let ys = gpu.buffer("outputs", 16 * inputs.len() as u64, storage | to)?;
-    let desert = gpu.buffer("desert", size_of::<Desert>() as u64, storage | from)?;
-    let blowing = gpu.buffer("blowing", size_of::<Blowing>() as u64, storage | from)?;
-    gpu.queue.write_buffer(&xs, 0, bytemuck::cast_slice(inputs));
+    let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+    let desert = gpu.buffer("desert", size_of::<Desert>() as u64, usage)?;
+    let blowing = gpu.buffer("blowing", size_of::<Blowing>() as u64, usage)?;
     let field = Desert { cell_m: 1.0, size: [1.0, 1.0], wraps: 1, ..bytemuck::Zeroable::zeroed() };
     gpu.queue.write_buffer(&desert, 0, bytemuck::bytes_of(&field));
     let sand = Blowing {
@@ -68,20 +63,7 @@ fn seen(layer: Layer, inputs: &[[f32; 4]]) -> Result<Vec<[f32; 4]>, GpuError> {
         ("blowing_columns", wgpu::BindingResource::TextureView(&columns)),
         ("blowing_streaks", wgpu::BindingResource::TextureView(&streaks)),
     ];
-    let rays = [("inputs", xs.as_entire_binding()), ("outputs", ys.as_entire_binding())];
-    let groups = [(0, pipeline.bind(gpu, 0, &rays)?), (2, pipeline.bind(gpu, 2, &own)?)];
-    let count = u32::try_from(inputs.len()).unwrap_or(u32::MAX);
-    gpu.validated("marching through sand", |device| {
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        for (index, group) in &groups {
-            pass.set_bind_group(*index, group, &[]);
-        }
-        pipeline.dispatch(&mut pass, [count, 1, 1]);
-        drop(pass);
-        gpu.queue.submit([encoder.finish()])
-    })?;
-    Ok(bytemuck::pod_collect_to_vec(&gpu.read_buffer(&ys)?))
+    answers(gpu, (TEXT, "blowing_main"), inputs, &own)
 }
 
 /// Rays from a height (m) with a rise, from many sides.

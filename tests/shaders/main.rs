@@ -8,6 +8,7 @@ mod layouts;
 mod loops;
 mod modules;
 mod portability;
+mod rays;
 mod relief;
 mod rules;
 mod twins;

@@ -1,9 +1,11 @@
 //! Relief of ripples near the camera: what a ray sees is what it meets first.
 
 use half::f16;
-use tyndall_gpu::{ComputePipeline, Gpu, GpuError, Shader, wgpu};
+use tyndall_gpu::{GpuError, wgpu};
 use tyndall_render::desert::gpu_data::Desert;
 use tyndall_tests::gpu;
+
+use crate::rays::{answers, texture};
 
 /// Texels of the tile, waves on it, its side (m); the height of crests as a share of it (1 / 32 of a wave).
 const TEXELS: u32 = 128;
@@ -48,13 +50,8 @@ fn relief_main(@builtin(global_invocation_id) id: vec3<u32>) {
 /// Places and heights (m) that rays see, and how much of a sun in their direction shines there.
 fn seen(inputs: &[[f32; 4]], relief: f64) -> Result<Vec<[f32; 4]>, GpuError> {
     let gpu = gpu();
-    let pipeline = ComputePipeline::new(gpu, &Shader::from_source(gpu, "test.wgsl", TEXT)?, "relief_main", &[])?;
-    let storage = wgpu::BufferUsages::STORAGE;
-    let [from, to] = [wgpu::BufferUsages::COPY_DST, wgpu::BufferUsages::COPY_SRC];
-    let xs = gpu.buffer("inputs", 16 * inputs.len() as u64, storage | from)?;
-    let ys = gpu.buffer("outputs", 16 * inputs.len() as u64, storage | to)?;
-    let desert = gpu.buffer("desert", size_of::<Desert>() as u64, storage | from)?;
-    gpu.queue.write_buffer(&xs, 0, bytemuck::cast_slice(inputs));
+    let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+    let desert = gpu.buffer("desert", size_of::<Desert>() as u64, usage)?;
     gpu.queue.write_buffer(&desert, 0, bytemuck::bytes_of(&uniform(relief)));
     let one = f16::ONE.to_bits();
     let heights = texture(gpu, wgpu::TextureFormat::R16Float, TEXELS, &texels());
@@ -72,20 +69,7 @@ fn seen(inputs: &[[f32; 4]], relief: f64) -> Result<Vec<[f32; 4]>, GpuError> {
         ("ripple_sampler", wgpu::BindingResource::Sampler(&sampler)),
         ("ripple_heights", wgpu::BindingResource::TextureView(&heights)),
     ];
-    let rays = [("inputs", xs.as_entire_binding()), ("outputs", ys.as_entire_binding())];
-    let groups = [(0, pipeline.bind(gpu, 0, &rays)?), (2, pipeline.bind(gpu, 2, &own)?)];
-    let count = u32::try_from(inputs.len()).unwrap_or(u32::MAX);
-    gpu.validated("marching through ripples", |device| {
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        for (index, group) in &groups {
-            pass.set_bind_group(*index, group, &[]);
-        }
-        pipeline.dispatch(&mut pass, [count, 1, 1]);
-        drop(pass);
-        gpu.queue.submit([encoder.finish()])
-    })?;
-    Ok(bytemuck::pod_collect_to_vec(&gpu.read_buffer(&ys)?))
+    answers(gpu, (TEXT, "relief_main"), inputs, &own)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the GPU computes in f32")]
@@ -102,26 +86,6 @@ fn uniform(relief: f64) -> Desert {
         relief: relief as f32,
         ..bytemuck::Zeroable::zeroed()
     }
-}
-
-/// A square texture of half floats.
-pub(crate) fn texture(gpu: &Gpu, format: wgpu::TextureFormat, side: u32, halves: &[u16]) -> wgpu::TextureView {
-    let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 };
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("test"),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    let rows = halves.len() / side as usize * size_of::<u16>();
-    let layout =
-        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: u32::try_from(rows).ok(), rows_per_image: Some(side) };
-    gpu.queue.write_texture(texture.as_image_copy(), bytemuck::cast_slice(halves), layout, size);
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// Rays that reach many places of the tile, risen by an angle, from many sides.

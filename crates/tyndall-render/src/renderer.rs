@@ -161,7 +161,7 @@ impl Renderer {
             self.landscape.draw(&mut pass, landscape);
         }
         if let Some(desert) = desert {
-            self.desert.draw(&mut pass, desert);
+            DesertRenderer::draw(&mut pass, desert);
         }
         SkyRenderer::draw(&mut pass, &sky);
         Ok(())

@@ -38,6 +38,7 @@ use tyndall_scene::Scene;
 
 use crate::clouds::lamp::Lamp;
 use crate::landscape::LandscapeSurroundings;
+use crate::night_forms::NightForms;
 use crate::sky::{SkyLightReach, TableBuilding};
 use crate::target::DEPTH_FORMAT;
 use crate::{FrameTarget, RenderError, RendererConfig, View};
@@ -63,7 +64,7 @@ type LightKey = (u64, [f64; 2], bool);
 #[derive(Debug)]
 pub struct DesertRenderer {
     fill_mesh: ComputePipeline,
-    dunes: RenderPipeline,
+    dunes: NightForms,
     uniform: Buffer,
     source: BedSource,
     blowing: BlowingRenderer,
@@ -86,6 +87,7 @@ pub struct DesertRenderer {
 /// What is drawn of a frame's desert.
 #[derive(Debug)]
 pub struct DesertDrawData {
+    pipeline: wgpu::RenderPipeline,
     groups: [wgpu::BindGroup; 4],
     mesh: DesertMesh,
     /// What sand in the air reads; `None` without any.
@@ -105,14 +107,14 @@ impl DesertRenderer {
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         };
-        let dunes = RenderPipeline::new(
+        let dunes = NightForms::new(
             gpu,
-            &Shader::load(gpu, "desert/dunes.wgsl")?,
-            &RenderPipelineDesc {
+            Shader::load(gpu, "desert/dunes.wgsl")?,
+            RenderPipelineDesc {
                 label: "dunes",
                 vertex: "dunes_vertex",
                 fragment: "dunes_fragment",
-                targets: &[config.frame_format().into()],
+                targets: &[],
                 depth: Some(depth),
                 primitive: wgpu::PrimitiveState {
                     topology: wgpu::PrimitiveTopology::TriangleStrip,
@@ -123,6 +125,7 @@ impl DesertRenderer {
                 },
                 constants: &[],
             },
+            config.frame_format(),
         )?;
         let bytes = size_of::<Desert>() as u64;
         Ok(Self {
@@ -228,9 +231,9 @@ impl DesertRenderer {
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         self.update_maps(gpu, lamp)?;
         self.update_mesh(gpu, encoder, timer, (scene, &mesh, &uniform), surroundings.frame)?;
-        let Some(groups) = self.bind(gpu, surroundings)? else { return Ok(None) };
+        let Some((pipeline, groups)) = self.bind(gpu, surroundings)? else { return Ok(None) };
         let blowing = self.prepare_blowing(gpu, scene, lamp, surroundings)?;
-        Ok(Some(DesertDrawData { groups, mesh, blowing }))
+        Ok(Some(DesertDrawData { pipeline, groups, mesh, blowing }))
     }
 
     /// Uploads what has changed of bed, ripples and light.
@@ -263,10 +266,10 @@ impl DesertRenderer {
     }
 
     fn bind(
-        &self,
+        &mut self,
         gpu: &Gpu,
         surroundings: LandscapeSurroundings<'_>,
-    ) -> Result<Option<[wgpu::BindGroup; 4]>, RenderError> {
+    ) -> Result<Option<(wgpu::RenderPipeline, [wgpu::BindGroup; 4])>, RenderError> {
         let (Some((_, bed)), Some((_, tile)), Some((_, light))) = (&self.bed, &self.tile, &self.light) else {
             return Ok(None);
         };
@@ -283,8 +286,9 @@ impl DesertRenderer {
             ("desert_sampler", wgpu::BindingResource::Sampler(&bed.sampler)),
             ("ripple_sampler", wgpu::BindingResource::Sampler(&self.tile_sampler)),
         ];
-        let [sky, frame, shade] = bind_surroundings(gpu, &self.dunes, surroundings)?;
-        Ok(Some([sky, frame, self.dunes.bind(gpu, 2, &own)?, shade]))
+        let dunes = self.dunes.form(gpu, surroundings.tables.is_night_drawn())?;
+        let [sky, frame, shade] = bind_surroundings(gpu, dunes, surroundings)?;
+        Ok(Some((dunes.raw().clone(), [sky, frame, dunes.bind(gpu, 2, &own)?, shade])))
     }
 
     /// Makes what sand in the air needs; `None` without any.
@@ -370,8 +374,8 @@ impl DesertRenderer {
     }
 
     /// Draws the desert; first of all, for it hides most of what is behind it.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, data: &DesertDrawData) {
-        pass.set_pipeline(self.dunes.raw());
+    pub fn draw(pass: &mut wgpu::RenderPass<'_>, data: &DesertDrawData) {
+        pass.set_pipeline(&data.pipeline);
         for (index, group) in (0..).zip(&data.groups) {
             pass.set_bind_group(index, group, &[]);
         }
