@@ -127,8 +127,8 @@ fn exposed(bed: &HeightGrid, field: ([usize; 2], Edges), upwind: [f64; 2]) -> Ve
     line.iter().zip(bed.heights()).map(open).collect()
 }
 
-/// Flux (kg/(m s)) over each cell, of which a share is in the wind and has sand. Over waves of a wavenumber k air moves faster by k times their height, in which k is that of
-/// waves with the bed's height and slopes.
+/// Flux (kg/(m s)) over each cell, of which a share is in the wind and has sand. Over waves of a wavenumber k air moves faster
+/// by k times their height, in which k is that of waves with the bed's height and slopes.
 fn fluxes(bed: &HeightGrid, wind: SandWind, supplied: &[f32]) -> Vec<f64> {
     let (mean, rms) = (bed.mean_cells(), bed.rms_cells());
     let (sin, cos) = wind.toward_deg.to_radians().sin_cos();
